@@ -32,7 +32,9 @@ mod font;
 mod frame;
 mod heat_map;
 mod legend;
+mod occupied;
 mod png;
+mod reference;
 mod scaled;
 mod series;
 mod ticks;
@@ -40,6 +42,7 @@ mod ticks;
 pub use axis::{Axis, Scale};
 pub use color::{Color, ColorMap};
 pub use heat_map::HeatMap;
+pub use reference::Reference;
 pub use series::{Dash, Marker, Series, Shape};
 
 /// Width and height of a plot where nothing else is said, in CSS pixels.
@@ -63,37 +66,6 @@ pub enum Legend {
     Outside,
     /// No legend.
     Hidden,
-}
-
-/// A straight line across the plot at a value that matters, with a label.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Reference {
-    /// Whether the line stands at an x value; else it lies at a y value.
-    pub vertical: bool,
-    /// The value, in the axis's data unit.
-    pub value: f64,
-    /// Label beside the line; may be empty.
-    pub label: String,
-}
-
-impl Reference {
-    /// A vertical line at `x`.
-    pub fn vertical(x: f64, label: impl Into<String>) -> Self {
-        Self {
-            vertical: true,
-            value: x,
-            label: label.into(),
-        }
-    }
-
-    /// A horizontal line at `y`.
-    pub fn horizontal(y: f64, label: impl Into<String>) -> Self {
-        Self {
-            vertical: false,
-            value: y,
-            label: label.into(),
-        }
-    }
 }
 
 /// A plot of series over two axes.

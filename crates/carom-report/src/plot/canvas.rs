@@ -90,6 +90,22 @@ fn grid(point: &Point) -> (i32, i32) {
     (fine(point[0]), fine(point[1]))
 }
 
+/// The points of a line on the grid, without those closer to the last one than anybody sees.
+fn thinned(points: &[Point]) -> Vec<(i32, i32)> {
+    const CLOSE: f64 = 0.4;
+    let mut kept: Vec<Point> = Vec::with_capacity(points.len());
+    for (i, point) in points.iter().enumerate() {
+        let end = i + 1 == points.len();
+        let far = kept
+            .last()
+            .is_none_or(|last| (point[0] - last[0]).hypot(point[1] - last[1]) > CLOSE);
+        if far || end {
+            kept.push(*point);
+        }
+    }
+    kept.iter().map(grid).collect()
+}
+
 /// The picture being drawn.
 pub(super) struct Canvas<'b> {
     area: DrawingArea<SVGBackend<'b>, Shift>,
@@ -141,8 +157,7 @@ impl<'b> Canvas<'b> {
     }
 
     pub(super) fn line(&self, points: &[Point], stroke: Stroke) -> Result<(), ReportError> {
-        let mut path: Vec<_> = points.iter().map(grid).collect();
-        path.dedup();
+        let path = thinned(points);
         self.put(&PathElement::new(path, stroke.style()))
     }
 
@@ -158,8 +173,7 @@ impl<'b> Canvas<'b> {
             Dash::Dashed => (fine(3.2 * stroke.width), fine(3.6 * stroke.width)),
             Dash::Dotted => (1, fine(2.4 * stroke.width)),
         };
-        let mut path: Vec<_> = points.iter().map(grid).collect();
-        path.dedup();
+        let path = thinned(points);
         self.put(&DashedPathElement::new(path, length, gap, stroke.style()))
     }
 
@@ -223,6 +237,9 @@ impl<'b> Canvas<'b> {
 
     /// Draws text with its baseline at the point.
     pub(super) fn text(&self, at: Point, label: Label<'_>) -> Result<(), ReportError> {
+        if label.text.is_empty() {
+            return Ok(());
+        }
         let h = match label.anchor {
             Anchor::Start => HPos::Left,
             Anchor::Middle => HPos::Center,

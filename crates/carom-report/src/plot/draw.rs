@@ -1,10 +1,11 @@
 //! Drawing a plot: settle the axes, lay out, draw from the back to the front.
 
-use super::canvas::{self, Anchor, Canvas, Label, Point, Stroke};
+use super::canvas::{self, Canvas, Point, Stroke};
 use super::clip::Rect;
-use super::frame::{Frame, TICK};
+use super::frame::Frame;
+use super::occupied::Occupied;
 use super::scaled::{Margin, Scaled};
-use super::{Color, Legend, Marker, Plot, Reference, Series, Shape, font, legend};
+use super::{Color, Legend, Marker, Plot, Series, Shape, legend, reference};
 use crate::ReportError;
 
 /// Opacity of a band.
@@ -19,20 +20,16 @@ pub(super) fn plot(plot: &Plot) -> Result<String, ReportError> {
     let legend_size = legend::size(&series).filter(|_| plot.legend != Legend::Hidden);
 
     let mut frame = frame(plot, 0.0);
-    let mut labels = reference_labels(plot, &frame);
+    let mut taken = Occupied::new(plot, &frame);
+    let mut references = reference::place(&plot.references, &frame, &taken);
     let mut legend_at = None;
     if let Some(size) = legend_size {
-        let boxes: Vec<Rect> = labels.iter().map(|(_, rect)| *rect).collect();
-        legend_at = legend::place(
-            plot.legend,
-            size,
-            &frame.rect,
-            &occupied(plot, &frame),
-            &boxes,
-        );
+        let labels: Vec<Rect> = references.iter().filter_map(|r| r.label).collect();
+        legend_at = legend::place(plot.legend, size, &frame.rect, &taken, &labels);
         if legend_at.is_none() {
             frame = self::frame(plot, size.0 + 36.0);
-            labels = reference_labels(plot, &frame);
+            taken = Occupied::new(plot, &frame);
+            references = reference::place(&plot.references, &frame, &taken);
             let (left, top) = (frame.rect.right + 18.0, frame.rect.top);
             legend_at = Some(Rect {
                 left,
@@ -51,7 +48,7 @@ pub(super) fn plot(plot: &Plot) -> Result<String, ReportError> {
         for (series, color) in series.iter().filter(|(s, _)| area(s)) {
             draw_area(canvas, &frame, series, *color)?;
         }
-        draw_references(canvas, &frame, &labels)?;
+        reference::draw_lines(canvas, &references)?;
         for (series, color) in series.iter().filter(|(s, _)| !area(s)) {
             draw_series(canvas, &frame, series, *color)?;
         }
@@ -64,19 +61,7 @@ pub(super) fn plot(plot: &Plot) -> Result<String, ReportError> {
                 canvas.line(&piece, Stroke::new(WALL, 4.0))?;
             }
         }
-        for (reference, rect) in labels.iter().filter(|(r, _)| !r.label.is_empty()) {
-            canvas.rectangle(
-                [rect.left, rect.top],
-                [rect.right, rect.bottom],
-                Color(255, 255, 255),
-                0.8,
-            )?;
-            let label = Label {
-                color: Color::GREY,
-                ..Label::new(&reference.label, TICK, Anchor::Start)
-            };
-            canvas.text([rect.left + 3.0, rect.bottom - 5.0], label)?;
-        }
+        reference::draw_labels(canvas, &references)?;
         legend_at.map_or(Ok(()), |rect| legend::draw(canvas, &series, &rect))
     })
 }
@@ -143,63 +128,13 @@ fn extent(plot: &Plot) -> (Vec<f64>, Vec<f64>) {
     (xs, ys)
 }
 
-/// A series' outline in pixels: what may not be covered, and what is drawn.
-fn outline(frame: &Frame, x: &[f64], y: &[f64]) -> Vec<Option<Point>> {
+/// A series' points in pixels.
+pub(super) fn outline(frame: &Frame, x: &[f64], y: &[f64]) -> Vec<Option<Point>> {
     x.iter().zip(y).map(|(x, y)| frame.point(*x, *y)).collect()
 }
 
-/// Points a few pixels apart all over what the series cover.
-fn occupied(plot: &Plot, frame: &Frame) -> Vec<Point> {
-    let mut taken = Vec::new();
-    let mut along = |a: Point, b: Point| {
-        let steps = ((b[0] - a[0]).hypot(b[1] - a[1]) / 5.0)
-            .ceil()
-            .clamp(1.0, 2000.0);
-        for i in 0..=steps as usize {
-            let t = i as f64 / steps;
-            taken.push([a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])]);
-        }
-    };
-    for series in &plot.series {
-        match &series.shape {
-            Shape::Line { x, y, .. } => {
-                for piece in frame.rect.polyline(outline(frame, x, y)) {
-                    piece.windows(2).for_each(|pair| along(pair[0], pair[1]));
-                }
-            }
-            Shape::Points { x, y, interval, .. } => {
-                outline(frame, x, y)
-                    .into_iter()
-                    .flatten()
-                    .for_each(|p| along(p, p));
-                for (x, (low, high)) in x.iter().zip(interval) {
-                    if let (Some(a), Some(b)) = (frame.point(*x, *low), frame.point(*x, *high)) {
-                        along(frame.rect.clamp(a), frame.rect.clamp(b));
-                    }
-                }
-            }
-            Shape::Band { .. } | Shape::Bars { .. } => {
-                for polygon in areas(frame, &series.shape) {
-                    // Hatching from the outline to its bounding box's foot is coarse but covers bars and bands alike.
-                    let n = polygon.len();
-                    for i in 0..n {
-                        along(polygon[i], polygon[(i + 1) % n]);
-                        along(polygon[i], polygon[n - 1 - i]);
-                    }
-                }
-            }
-        }
-    }
-    for [from, to] in &plot.walls {
-        if let (Some(a), Some(b)) = (frame.point(from[0], from[1]), frame.point(to[0], to[1])) {
-            along(frame.rect.clamp(a), frame.rect.clamp(b));
-        }
-    }
-    taken
-}
-
 /// The polygons of a band (one for each run without gaps) or of bars.
-fn areas(frame: &Frame, shape: &Shape) -> Vec<Vec<Point>> {
+pub(super) fn areas(frame: &Frame, shape: &Shape) -> Vec<Vec<Point>> {
     let mut polygons = Vec::new();
     match shape {
         Shape::Band { x, low, high } => {
@@ -328,96 +263,6 @@ fn draw_error_bar(
         if frame.rect.contains(end) {
             canvas.line(&[[end[0] - 4.0, end[1]], [end[0] + 4.0, end[1]]], stroke)?;
         }
-    }
-    Ok(())
-}
-
-/// The references inside the frame with the rectangles of their labels, moved down or left until they are free of each other.
-fn reference_labels<'p>(plot: &'p Plot, frame: &Frame) -> Vec<(&'p Reference, Rect)> {
-    let mut placed: Vec<(&Reference, Rect)> = Vec::new();
-    for reference in &plot.references {
-        let axis = if reference.vertical {
-            &frame.x
-        } else {
-            &frame.y
-        };
-        let Some(share) = axis
-            .share(reference.value)
-            .filter(|s| (0.0..=1.0).contains(s))
-        else {
-            continue;
-        };
-        let (width, height) = (font::width(&reference.label, TICK) + 6.0, TICK + 5.0);
-        let at = frame.place(share, share);
-        let (mut left, mut top) = if reference.vertical {
-            let right_side = at[0] + 4.0 + width < frame.rect.right;
-            (
-                if right_side {
-                    at[0] + 4.0
-                } else {
-                    at[0] - 4.0 - width
-                },
-                frame.rect.top + 5.0,
-            )
-        } else {
-            let above = at[1] - height - 2.0 > frame.rect.top;
-            (
-                frame.rect.right - width - 6.0,
-                if above {
-                    at[1] - height - 2.0
-                } else {
-                    at[1] + 3.0
-                },
-            )
-        };
-        let rect = |left: f64, top: f64| Rect {
-            left,
-            top,
-            right: left + width,
-            bottom: top + height,
-        };
-        while !reference.label.is_empty()
-            && placed
-                .iter()
-                .any(|(r, other)| !r.label.is_empty() && other.overlaps(&rect(left, top)))
-            && top + 2.0 * height < frame.rect.bottom
-            && left > frame.rect.left
-        {
-            if reference.vertical {
-                top += height + 2.0
-            } else {
-                left -= 20.0
-            }
-        }
-        placed.push((reference, rect(left, top)));
-    }
-    placed
-}
-
-fn draw_references(
-    canvas: &Canvas<'_>,
-    frame: &Frame,
-    references: &[(&Reference, Rect)],
-) -> Result<(), ReportError> {
-    for (reference, _) in references {
-        let axis = if reference.vertical {
-            &frame.x
-        } else {
-            &frame.y
-        };
-        let Some(share) = axis.share(reference.value) else {
-            continue;
-        };
-        let (from, to) = if reference.vertical {
-            (frame.place(share, 0.0), frame.place(share, 1.0))
-        } else {
-            (frame.place(0.0, share), frame.place(1.0, share))
-        };
-        canvas.dashed(
-            &[from, to],
-            Stroke::new(Color::GREY, 1.2),
-            super::Dash::Dashed,
-        )?;
     }
     Ok(())
 }

@@ -3,6 +3,7 @@
 use super::canvas::{Anchor, Canvas, Label, Point, Stroke};
 use super::clip::Rect;
 use super::frame::TICK;
+use super::occupied::Occupied;
 use super::{Color, Legend, Series, Shape, font};
 use crate::ReportError;
 
@@ -30,7 +31,7 @@ pub(super) fn place(
     legend: Legend,
     size: (f64, f64),
     frame: &Rect,
-    taken: &[Point],
+    taken: &Occupied,
     labels: &[Rect],
 ) -> Option<Rect> {
     let (width, height) = size;
@@ -68,7 +69,7 @@ pub(super) fn place(
             rect.left > frame.left
                 && rect.top > frame.top
                 && rect.bottom < frame.bottom
-                && !taken.iter().any(|p| room.contains(*p))
+                && taken.count(&room) == (0, 0)
                 && !labels.iter().any(|l| room.overlaps(l))
         }),
         Legend::Outside | Legend::Hidden => None,

@@ -104,16 +104,10 @@ impl Scaled {
             .map(|v| (v - self.low) / (self.high - self.low))
     }
 
-    /// As [`Scaled::share`], with what a logarithmic axis cannot place at its lower end.
+    /// As [`Scaled::share`], with what is too low for a logarithmic axis at its lower end.
     pub(super) fn share_or_low(&self, data: f64) -> Option<f64> {
-        if data.is_nan() {
-            None
-        } else {
-            Some(
-                self.share(data)
-                    .unwrap_or(if self.log { 0.0 } else { return None }),
-            )
-        }
+        let below = self.log && data * self.factor <= 0.0;
+        self.share(data).or(below.then_some(0.0))
     }
 
     /// Divisions with their places, about `count` of them labelled.
@@ -185,5 +179,17 @@ mod tests {
         let scaled = Scaled::new(&axis, [0.0, 1e-4], Margin::None);
         assert_eq!(scaled.high.round(), 100.0);
         assert!((scaled.share(5e-5).unwrap() - 0.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn what_cannot_be_placed_has_no_share() {
+        let linear = Scaled::new(&Axis::new("", ""), [0.0, 2.0], Margin::None);
+        assert_eq!(linear.share_or_low(1.0), Some(0.5));
+        assert_eq!(linear.share_or_low(f64::INFINITY), None);
+        let log = Scaled::new(&Axis::new("", "").log(), [1.0, 100.0], Margin::None);
+        assert_eq!(log.share(0.0), None);
+        assert_eq!(log.share(10.0), Some(0.5));
+        let low = [0.0, -1.0, f64::NAN, f64::INFINITY].map(|v| log.share_or_low(v));
+        assert_eq!(low, [Some(0.0), Some(0.0), None, None]);
     }
 }

@@ -18,18 +18,17 @@ pub(super) fn linear(low: f64, high: f64, count: usize) -> Vec<Tick> {
         return Vec::new();
     }
     let mut exponent = rough.log10().floor() as i32;
-    let mantissa = rough / power(exponent);
-    let digit = if mantissa <= 1.0 + 1e-9 {
-        1
-    } else if mantissa <= 2.0 + 1e-9 {
-        2
-    } else if mantissa <= 5.0 + 1e-9 {
-        5
-    } else {
-        exponent += 1;
-        1
+    // The step nearest by ratio.
+    let digit = match decimal(rough, -exponent) {
+        m if m < 1.5 => 1,
+        m if m < 3.5 => 2,
+        m if m < 7.5 => 5,
+        _ => {
+            exponent += 1;
+            1
+        }
     };
-    let step = f64::from(digit) * power(exponent);
+    let step = decimal(f64::from(digit), exponent);
     let slack = 1e-9;
     let (first, last) = ((low / step - slack).ceil(), (high / step + slack).floor());
     let largest = low.abs().max(high.abs());
@@ -37,7 +36,7 @@ pub(super) fn linear(low: f64, high: f64, count: usize) -> Vec<Tick> {
     let mut index = first;
     while index <= last && ticks.len() < 1000 {
         // Multiples of the step, not sums, so that no rounding builds up.
-        let value = index * f64::from(digit) * power(exponent);
+        let value = decimal(index * f64::from(digit), exponent);
         ticks.push(Tick {
             value,
             label: Some(linear_label(value, exponent, largest)),
@@ -47,22 +46,22 @@ pub(super) fn linear(low: f64, high: f64, count: usize) -> Vec<Tick> {
     ticks
 }
 
-/// Ten to a whole power; a division for the negative ones, which then round to the nearest decimal fraction.
-fn power(exponent: i32) -> f64 {
+/// `mantissa` times ten to a whole power, rounded once: a division for the negative powers, which have no exact `f64`.
+fn decimal(mantissa: f64, exponent: i32) -> f64 {
     if exponent < 0 {
-        1.0 / 10_f64.powi(-exponent)
+        mantissa / 10_f64.powi(-exponent)
     } else {
-        10_f64.powi(exponent)
+        mantissa * 10_f64.powi(exponent)
     }
 }
 
 fn linear_label(value: f64, step_exponent: i32, largest: f64) -> String {
     let scale = largest.log10().floor() as i32;
-    let text = if value.abs() < power(step_exponent) * 1e-6 {
+    let text = if value.abs() < decimal(1e-6, step_exponent) {
         "0".to_owned()
     } else if scale >= 6 || step_exponent < -5 {
         let decimals = usize::try_from(scale - step_exponent).unwrap_or_default();
-        let mantissa = format!("{:.decimals$}", value / power(scale));
+        let mantissa = format!("{:.decimals$}", decimal(value, -scale));
         format!("{}×10{}", number::trim(&mantissa), superscript(scale))
     } else {
         let decimals = usize::try_from(-step_exponent).unwrap_or_default();
@@ -81,7 +80,7 @@ pub(super) fn log(low: f64, high: f64, count: usize) -> Vec<Tick> {
     let decades = high.log10() - low.log10();
     let stride = (decades / count.max(1) as f64).ceil().max(1.0) as i32;
     let inside = |v: f64| v >= low * (1.0 - 1e-9) && v <= high * (1.0 + 1e-9);
-    let whole = (first..=last).filter(|e| inside(power(*e))).count();
+    let whole = (first..=last).filter(|e| inside(decimal(1.0, *e))).count();
     let labelled: &[i32] = if whole < 3 && decades < 2.0 {
         &[1, 2, 5]
     } else {
@@ -91,11 +90,13 @@ pub(super) fn log(low: f64, high: f64, count: usize) -> Vec<Tick> {
     let mut ticks = Vec::new();
     for exponent in first..=last {
         for digit in 1..=9 {
-            let value = f64::from(digit) * power(exponent);
-            if !inside(value) || (stride > 1 && digit > 1) {
+            let value = decimal(f64::from(digit), exponent);
+            let named = labelled.contains(&digit) && exponent.rem_euclid(stride) == 0;
+            // Between decades while each is labelled, then the decades themselves while they are not too many.
+            let small = stride == 1 || (digit == 1 && stride <= 10);
+            if !inside(value) || !(named || small) {
                 continue;
             }
-            let named = labelled.contains(&digit) && exponent.rem_euclid(stride) == 0;
             ticks.push(Tick {
                 value,
                 label: named.then(|| log_label(digit, exponent, plain)),
@@ -111,7 +112,7 @@ pub(super) fn log(low: f64, high: f64, count: usize) -> Vec<Tick> {
 fn log_label(digit: i32, exponent: i32, plain: bool) -> String {
     if plain {
         let decimals = usize::try_from(-exponent).unwrap_or_default();
-        format!("{:.decimals$}", f64::from(digit) * power(exponent))
+        format!("{:.decimals$}", decimal(f64::from(digit), exponent))
     } else if digit == 1 {
         format!("10{}", superscript(exponent))
     } else {
@@ -131,7 +132,7 @@ mod tests {
     fn linear_numbers_are_tidy() {
         assert_eq!(
             labels(&linear(0.0, 1.0, 5)),
-            ["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"].map(|s| if s == "0.0" { "0" } else { s })
+            ["0", "0.2", "0.4", "0.6", "0.8", "1.0"]
         );
         assert_eq!(
             labels(&linear(-0.3, 0.3, 6)),
@@ -157,7 +158,8 @@ mod tests {
             labels(&log(3.1, 4.2, 5)),
             ["3.2", "3.4", "3.6", "3.8", "4.0", "4.2"]
         );
-        assert!(log(1e-30, 1e30, 8).len() < 20);
+        assert_eq!(labels(&log(1e-30, 1e30, 8)).len(), 7);
+        assert!(log(1e-300, 1e300, 8).len() < 20);
         assert!(log(-1.0, 1.0, 5).is_empty());
     }
 }
