@@ -4,7 +4,7 @@ use std::fs;
 
 use carom_report::plot::{ColorMap, Legend, Marker, Reference};
 use carom_report::{Axis, Color, HeatMap, Plot, Report, ReportError, Series};
-use resvg::tiny_skia::Pixmap;
+use resvg::tiny_skia::{Pixmap, PremultipliedColorU8};
 
 fn sample() -> Plot {
     let x = [0.1, 0.3, 1.0, 3.0, 10.0];
@@ -74,33 +74,38 @@ fn svg_holds_its_labels_and_is_the_same_every_time() {
 
 #[test]
 fn png_shows_data_in_their_colours_and_text_without_any_system_font() {
-    let png = sample().png().unwrap();
-    assert_eq!(png, sample().png().unwrap());
-    let pixels = Pixmap::decode_png(&png).unwrap();
-    assert_eq!((pixels.width(), pixels.height()), (1800, 1120));
-    let painted = |pixmap: &Pixmap, rgb: (u8, u8, u8)| {
-        pixmap
-            .pixels()
-            .iter()
-            .filter(|p| (p.red(), p.green(), p.blue()) == rgb && p.alpha() == 255)
-            .count()
+    let small = |title: &str| Plot {
+        size: (360, 240),
+        title: title.to_owned(),
+        legend: Legend::Hidden,
+        ..sample()
     };
-    assert!(painted(&pixels, (0, 114, 178)) > 1000, "the line");
-    assert!(painted(&pixels, (213, 94, 0)) > 500, "the marks");
+    let png = small("Copper").png().unwrap();
+    let pixels = Pixmap::decode_png(&png).unwrap();
+    assert_eq!((pixels.width(), pixels.height()), (720, 480));
+    let painted = |red, green, blue| {
+        let colour =
+            |p: &&PremultipliedColorU8| (p.red(), p.green(), p.blue()) == (red, green, blue);
+        pixels.pixels().iter().filter(colour).count()
+    };
+    assert!(painted(0, 114, 178) > 500, "the line");
+    assert!(painted(213, 94, 0) > 300, "the marks");
+    assert!(painted(255, 255, 255) > 100_000, "the ground");
     // The title is the only thing in its strip above the frame.
-    let title = |plot: &Plot| {
-        let pixels = Pixmap::decode_png(&plot.png().unwrap()).unwrap();
-        pixels.pixels()[..1800 * 90]
+    let dark = |pixels: &Pixmap| {
+        pixels.pixels()[..720 * 90]
             .iter()
             .filter(|p| p.red() < 100)
             .count()
     };
-    assert!(title(&sample()) > 500);
-    let untitled = Plot {
-        title: " ".to_owned(),
-        ..sample()
-    };
-    assert_eq!(title(&untitled), 0);
+    assert!(dark(&pixels) > 300);
+    let untitled = small(" ").png().unwrap();
+    assert_eq!(dark(&Pixmap::decode_png(&untitled).unwrap()), 0);
+    assert_eq!(
+        untitled,
+        small(" ").png().unwrap(),
+        "the same bytes every time"
+    );
 }
 
 #[test]
@@ -108,7 +113,11 @@ fn extension_chooses_the_format_and_others_are_refused_before_anything_is_drawn(
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name);
     sample().write(path("a.svg")).unwrap();
-    sample().write(path("a.PNG")).unwrap();
+    let small = Plot {
+        size: (90, 60),
+        ..sample()
+    };
+    small.write(path("a.PNG")).unwrap();
     assert_eq!(
         fs::read_to_string(path("a.svg")).unwrap(),
         sample().svg().unwrap()
