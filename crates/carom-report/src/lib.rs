@@ -7,6 +7,7 @@
 //! - [`html`]: self-contained HTML reports of text, figures and tables.
 //!
 //! Values are SI everywhere; a plot's [`Axis::scaled`] shows them in another unit.
+//! The font is DejaVu Sans (Bitstream Vera licence), from the `dejavu` crate.
 //! Every file is written beside its target under a temporary name and renamed when it is whole,
 //! so an error leaves no half-written file.
 

@@ -146,8 +146,9 @@ impl HeatMap {
                     None if data == f64::NEG_INFINITY => self.colors.at(0.0),
                     None => MISSING,
                 };
-                // On whole pixels: neighbours then meet without a seam.
-                let [from, to] = [from, to].map(|p| frame.rect.clamp(p).map(f64::round));
+                // A pixel on into the neighbours drawn next, so that no seam shows where a page scales the picture.
+                let further = [0, 1].map(|i| to[i] + (to[i] - from[i]).signum());
+                let [from, to] = [from, further].map(|p| frame.rect.clamp(p));
                 canvas.rectangle(from, to, color, 1.0)?;
             }
         }
@@ -165,14 +166,10 @@ impl HeatMap {
         let height = frame.rect.height();
         let steps = height.round().max(1.0) as u32;
         for step in 0..steps {
-            let at = |i: u32| (bottom - height * f64::from(i) / f64::from(steps)).round();
+            let at = |i: f64| (bottom - height * i / f64::from(steps)).max(top);
+            let (foot, head) = (at(f64::from(step)), at(f64::from(step) + 2.0));
             let share = (f64::from(step) + 0.5) / f64::from(steps);
-            canvas.rectangle(
-                [left, at(step)],
-                [right, at(step + 1)],
-                self.colors.at(share),
-                1.0,
-            )?;
+            canvas.rectangle([left, foot], [right, head], self.colors.at(share), 1.0)?;
         }
         let stroke = Stroke::new(Color(70, 70, 70), 1.0);
         canvas.line(
