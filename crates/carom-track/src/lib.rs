@@ -1,11 +1,19 @@
 //! Lagrangian tracking of spheres through a flow, with carom's wall laws at the walls.
 //!
 //! SI units throughout. [`flow`] says what the fluid does at a point, [`force`] what that does to a sphere,
-//! [`injection`] where spheres start, [`random`] where chance comes from.
+//! [`injection`] where spheres start, [`random`] where chance comes from; [`domain`] joins flow and walls, [`tracker`]
+//! takes each sphere from its injection to its fate.
 
+
+pub mod domain;
+pub mod dynamics;
 mod elementary;
 pub mod flow;
 pub mod force;
+pub mod geometry;
 pub mod injection;
+pub mod integrate;
 pub mod random;
+pub mod record;
+pub mod tracker;
 pub(crate) mod vector;
