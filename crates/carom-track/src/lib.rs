@@ -5,9 +5,12 @@
 //! takes each sphere from its injection to its fate.
 
 
+mod block;
+pub mod case;
 pub mod domain;
 pub mod dynamics;
 mod elementary;
+pub mod exact_sum;
 pub mod flow;
 pub mod force;
 pub mod geometry;
@@ -15,5 +18,11 @@ pub mod injection;
 pub mod integrate;
 pub mod random;
 pub mod record;
+pub mod run;
+pub mod summary;
 pub mod tracker;
 pub(crate) mod vector;
+
+pub use case::{Case, CaseError};
+pub use run::{Progress, RunError, RunOptions, Shard, Silent, merge, run};
+pub use summary::Summary;

@@ -38,6 +38,21 @@ pub struct Particle {
 }
 
 impl Particle {
+    /// A particle of a run from its injection's.
+    pub fn new(number: u64, injection: usize, start: &crate::injection::Particle) -> Self {
+        Self {
+            number,
+            injection,
+            diameter: start.diameter,
+            density: start.density,
+            weight: start.weight,
+            time: start.time,
+            position: start.position,
+            velocity: start.velocity,
+            spin: start.spin,
+        }
+    }
+
     /// Mass of all it stands for, kg.
     pub fn mass(&self) -> f64 {
         self.weight * self.density * std::f64::consts::PI / 6.0 * self.diameter.powi(3)
