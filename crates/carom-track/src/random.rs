@@ -178,7 +178,9 @@ mod tests {
     #[test]
     fn normal_quantiles_of_as241() {
         // the test values the algorithm was published with
-        for (p, z) in [(0.25, -0.674_489_750_196_081_7), (1e-3, -3.090_232_306_167_814), (1e-20, -9.262_340_089_798_408)] {
+        for (p, z) in
+            [(0.25, -0.674_489_750_196_081_7), (1e-3, -3.090_232_306_167_814), (1e-20, -9.262_340_089_798_408)]
+        {
             let got = normal_quantile(p);
             assert!((got / z - 1.0f64).abs() < 1e-14, "{p} {got}");
         }

@@ -174,7 +174,7 @@ mod tests {
     use super::*;
 
     fn check_gradient(velocity: impl Fn([f64; 3]) -> [f64; 3], local: Local, x: [f64; 3], h: f64) {
-        let size = local.gradient.iter().flatten().fold(0.0f64, |m, g| m.max(g.abs()));
+        let size = local.gradient.iter().flatten().fold(1.0f64, |m, g| m.max(g.abs()));
         for j in 0..3 {
             let (mut a, mut b) = (x, x);
             a[j] += h;

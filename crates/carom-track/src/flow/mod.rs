@@ -176,11 +176,7 @@ impl FlowError {
     }
 
     pub(crate) fn positive(name: &'static str, value: f64) -> Result<(), Self> {
-        if value > 0.0 && value.is_finite() {
-            Ok(())
-        } else {
-            Err(Self::value(name, value, "positive and finite"))
-        }
+        if value > 0.0 && value.is_finite() { Ok(()) } else { Err(Self::value(name, value, "positive and finite")) }
     }
 
     pub(crate) fn finite(name: &'static str, value: f64) -> Result<(), Self> {

@@ -52,7 +52,11 @@ impl Pipe {
         let nu = fluid.kinematic_viscosity();
         let reynolds = 2.0 * radius * mean_speed.abs() / nu;
         if profile == Profile::Turbulent && reynolds < 2000.0 {
-            return Err(FlowError::value("Reynolds number (mean speed, diameter)", reynolds, "above 2000 for a turbulent profile"));
+            return Err(FlowError::value(
+                "Reynolds number (mean speed, diameter)",
+                reynolds,
+                "above 2000 for a turbulent profile",
+            ));
         }
         let friction_velocity = match profile {
             Profile::Plug => 0.0,
@@ -165,7 +169,11 @@ mod tests {
                 let (a, b) = (pipe.velocity(a), pipe.velocity(b));
                 for i in 0..3 {
                     let fd = (a[i] - b[i]) / 2e-7;
-                    assert!((local.gradient[i][j] - fd).abs() < 1e-5 * 300.0, "{profile:?} {i}{j} {fd} {:?}", local.gradient);
+                    assert!(
+                        (local.gradient[i][j] - fd).abs() < 1e-5 * 300.0,
+                        "{profile:?} {i}{j} {fd} {:?}",
+                        local.gradient
+                    );
                 }
             }
             let trace: f64 = (0..3).map(|i| local.gradient[i][i]).sum();

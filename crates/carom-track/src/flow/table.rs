@@ -117,7 +117,12 @@ impl Axis {
         let n = self.at.len() - 1;
         // written so that a NaN lands in the first cell
         if n == 0 || !(x > self.at[0]) {
-            return Place { low: 0, high: n.min(1), t: 0.0, slope: if n > 0 && x == self.at[0] { self.width(0) } else { 0.0 } };
+            return Place {
+                low: 0,
+                high: n.min(1),
+                t: 0.0,
+                slope: if n > 0 && x == self.at[0] { self.width(0) } else { 0.0 },
+            };
         }
         if x >= self.at[n] {
             return Place { low: n - 1, high: n, t: 1.0, slope: if x == self.at[n] { self.width(n - 1) } else { 0.0 } };

@@ -58,6 +58,7 @@ mod tests {
         // Re = 100, Re_r = 400: C_L = 0.45 + 3.55 exp(−0.05684 · 400^0.4 · 100^0.3)
         let c_l = 0.45 + 3.55 * (-0.05684 * 400.0f64.powf(0.4) * 100.0f64.powf(0.3)).exp();
         assert!((reduction(100.0, 400.0) * 4.0 - c_l).abs() < 1e-13);
-        assert!((c_l - 0.55).abs() < 0.05, "{c_l}");
+        // fast and spinning: C_L levels off at 0.45, whatever the spin
+        assert!((reduction(2000.0, 8000.0) * 4.0 - 0.45).abs() < 0.02);
     }
 }

@@ -61,9 +61,17 @@ pub enum Sizes {
 #[derive(Clone, Debug)]
 pub(super) enum Sampler {
     Mono(f64),
-    Lognormal { ln_median: f64, ln_gsd: f64 },
+    Lognormal {
+        ln_median: f64,
+        ln_gsd: f64,
+    },
     /// d = d̄ t^{1/n}, t exponential between two bounds: e^{−t} = high − u (high − low).
-    RosinRammler { mean: f64, per_spread: f64, high: f64, range: f64 },
+    RosinRammler {
+        mean: f64,
+        per_spread: f64,
+        high: f64,
+        range: f64,
+    },
     /// Cumulative shares of ln d.
     Curve(Vec<(f64, f64)>),
     Steps(Vec<(f64, f64)>),
@@ -127,7 +135,11 @@ fn rosin_rammler(mean: f64, spread: f64, [min, max]: [f64; 2], power: f64) -> Re
         let (high, low) = (exp(-t(min)), exp(-t(max)));
         let range = high - low;
         if range <= 0.0 {
-            return Err(InjectionError::value("least diameter", min, "such that some of the distribution lies above it"));
+            return Err(InjectionError::value(
+                "least diameter",
+                min,
+                "such that some of the distribution lies above it",
+            ));
         }
         return Ok(Sampler::RosinRammler { mean, per_spread: 1.0 / spread, high, range });
     }
