@@ -1,1 +1,43 @@
-//! carom
+//! What happens when a small particle hits a wall: does it stick or bounce, how fast, at what angle, with what spin.
+//!
+//! A **wall law** is a pair of materials × a normal law × a tangential law × roughness. It is read from one text form
+//! ([`spec`]), compiled once, and then answers impacts: a pure function, without files, allocation, global state or panics.
+//!
+//! ```
+//! use carom::{Impact, material::Library, spec::parse_law};
+//! let law = parse_law(r#"
+//!     sphere = "copper"
+//!     surface = "aluminium"
+//!     normal = "ea"
+//!     friction = 0.2
+//!     roughness_factor = 0.8
+//! "#)?;
+//! let wall = law.compile(&Library::builtin())?;
+//! let out = wall.impact(&Impact::new(90e-6, [2.0, -0.5, 0.0], [0.0, 1.0, 0.0])).expect("it approaches the wall");
+//! println!("{}: e = {:.3}, leaves at {:?} m/s", out.fate.name(), out.restitution, out.velocity);
+//! # Ok::<(), carom::SpecError>(())
+//! ```
+//!
+//! Where to look: one file per mechanism in [`normal`] and [`tangential`]; the equation of motion in [`resolved`]; materials and their
+//! sources in [`material`]; what a result's doubts mean in [`validity`]. SI units throughout; angles from the surface.
+
+pub mod batch;
+pub mod error;
+pub mod impact;
+pub mod material;
+pub mod math;
+pub mod normal;
+pub mod pair;
+pub mod resolved;
+pub mod roughness;
+pub mod spec;
+pub mod tangential;
+pub mod units;
+pub mod validity;
+pub mod wall;
+
+pub use error::SpecError;
+pub use impact::{Energy, Fate, Impact, ImpactError, Outcome, Vec3};
+pub use tangential::Contact;
+pub use validity::Validity;
+pub use wall::{WallLaw, Window};

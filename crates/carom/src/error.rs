@@ -1,0 +1,95 @@
+//! The one error of everything that is read from text: what, where, and what would be right.
+
+use std::fmt;
+use std::ops::Range;
+
+/// What is wrong in a law, a material or a parameter, where (bytes of the text, if it came from one), and the remedy.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub struct SpecError {
+    /// What is wrong, naming the value.
+    pub message: String,
+    /// Byte range in the text it was read from.
+    pub span: Option<Range<usize>>,
+    /// What would be right.
+    pub help: Option<String>,
+}
+
+impl fmt::Display for SpecError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)?;
+        self.help.as_ref().map_or(Ok(()), |help| write!(f, "; {help}"))
+    }
+}
+
+impl SpecError {
+    /// An error with no place yet.
+    pub fn new(message: impl Into<String>) -> Self {
+        Self { message: message.into(), span: None, help: None }
+    }
+
+    /// Adds what would be right.
+    #[must_use]
+    pub fn help(mut self, help: impl Into<String>) -> Self {
+        self.help = Some(help.into());
+        self
+    }
+
+    /// Adds the place, unless a more precise one is known.
+    #[must_use]
+    pub fn at(mut self, span: Option<Range<usize>>) -> Self {
+        self.span = self.span.or(span);
+        self
+    }
+
+    /// Line and column (both from 1) of the error in the text it came from.
+    pub fn line_column(&self, text: &str) -> Option<(usize, usize)> {
+        let start = self.span.as_ref()?.start.min(text.len());
+        let before = text.get(..start)?;
+        let column = before.rsplit('\n').next().map_or(0, |line| line.chars().count());
+        Some((before.matches('\n').count() + 1, column + 1))
+    }
+
+    /// The message on one line with its place: `name:line:column: message; help`.
+    pub fn located(&self, name: &str, text: &str) -> String {
+        match self.line_column(text) {
+            Some((line, column)) => format!("{name}:{line}:{column}: {self}"),
+            None => format!("{name}: {self}"),
+        }
+    }
+}
+
+impl From<toml::de::Error> for SpecError {
+    fn from(e: toml::de::Error) -> Self {
+        Self { message: e.message().trim().replace('\n', ", "), span: e.span(), help: None }
+    }
+}
+
+/// The candidate nearest to what was written, if one is near: "did you mean ...?".
+pub fn did_you_mean<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<String> {
+    let lower = wrong.to_lowercase();
+    candidates
+        .into_iter()
+        .map(|c| (strsim::damerau_levenshtein(&lower, &c.to_lowercase()), c))
+        .filter(|&(distance, c)| distance <= 1 + c.len().min(lower.len()) / 4)
+        .min()
+        .map(|(_, c)| format!("did you mean {c}?"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn suggestions_are_near_or_absent() {
+        let names = ["copper", "nickel", "gold"];
+        assert_eq!(did_you_mean("coper", names), Some("did you mean copper?".into()));
+        assert_eq!(did_you_mean("Coppre", names), Some("did you mean copper?".into()));
+        assert_eq!(did_you_mean("unobtainium", names), None);
+    }
+
+    #[test]
+    fn place_is_line_and_column() {
+        let e = SpecError::new("bad").at(Some(6..9)).help("be good");
+        assert_eq!(e.located("law.toml", "a = 1\nb = x\n"), "law.toml:2:1: bad; be good");
+    }
+}

@@ -1,0 +1,133 @@
+//! What goes into an impact and what comes out.
+
+use crate::tangential::Contact;
+use crate::validity::Validity;
+
+/// A vector in any right-handed frame, SI units.
+pub type Vec3 = [f64; 3];
+
+/// A sphere meets a wall. SI units; velocities in one frame, which may be any.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Impact {
+    /// Sphere diameter, m.
+    pub diameter: f64,
+    /// Sphere density, kg/m³; `None` for the law's own sphere.
+    pub density: Option<f64>,
+    /// Velocity of the sphere's centre, m/s.
+    pub velocity: Vec3,
+    /// Angular velocity, rad/s.
+    pub spin: Vec3,
+    /// Normal of the wall, pointing from the wall to the sphere; any length but zero.
+    pub normal: Vec3,
+    /// Velocity of the wall at the contact point, m/s.
+    pub wall_velocity: Vec3,
+    /// Uniform draws in [0, 1) for laws that scatter; the caller owns the randomness. No law uses them yet.
+    pub draws: [f64; 4],
+}
+
+impl Impact {
+    /// A sphere without spin, of the law's own density, on a wall at rest.
+    pub fn new(diameter: f64, velocity: Vec3, normal: Vec3) -> Self {
+        Self { diameter, density: None, velocity, spin: [0.0; 3], normal, wall_velocity: [0.0; 3], draws: [0.5; 4] }
+    }
+}
+
+/// Sticks or bounces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fate {
+    /// It leaves the wall.
+    Rebound,
+    /// It stays: it takes the wall's velocity and stops spinning.
+    Capture,
+}
+
+impl Fate {
+    /// The word in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Rebound => "rebound",
+            Self::Capture => "capture",
+        }
+    }
+}
+
+/// Where the incident kinetic energy went: fractions of the kinetic energy relative to the wall, translation plus spin.
+/// They are ≥ 0 and sum to 1 (give or take rounding).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Energy {
+    /// Work of adhesion.
+    pub adhesion: f64,
+    /// Adhesion damping.
+    pub adhesion_damping: f64,
+    /// Hertzian damping.
+    pub hertz_damping: f64,
+    /// Plastic deformation.
+    pub plastic: f64,
+    /// Normal loss of a table law, which names no mechanism.
+    pub other: f64,
+    /// Tangential loss.
+    pub friction: f64,
+    /// What was left when a captured sphere stopped.
+    pub captured: f64,
+    /// What the rebound keeps.
+    pub kept: f64,
+}
+
+impl Energy {
+    /// Names and values, in the order of the results.
+    pub fn named(&self) -> [(&'static str, f64); 8] {
+        [
+            ("adhesion", self.adhesion),
+            ("adhesion_damping", self.adhesion_damping),
+            ("hertz_damping", self.hertz_damping),
+            ("plastic", self.plastic),
+            ("other", self.other),
+            ("friction", self.friction),
+            ("captured", self.captured),
+            ("kept", self.kept),
+        ]
+    }
+}
+
+/// How the sphere leaves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outcome {
+    /// Sticks or bounces.
+    pub fate: Fate,
+    /// Velocity of the centre after the impact, m/s, in the frame of the [`Impact`].
+    pub velocity: Vec3,
+    /// Angular velocity after the impact, rad/s.
+    pub spin: Vec3,
+    /// e, 0 for a capture.
+    pub restitution: f64,
+    /// μ = |Δv_t|/((1 + e)v_n); NaN for a capture.
+    pub impulse_ratio: f64,
+    /// e_t = V_t/v_t along the incoming tangential direction; NaN for a capture or at normal incidence.
+    pub tangential_restitution: f64,
+    /// How the contact ended.
+    pub contact: Contact,
+    /// Where the energy went.
+    pub energy: Energy,
+    /// What to mind about this result.
+    pub validity: Validity,
+}
+
+/// An impact that is none. The sphere is as it was.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum ImpactError {
+    /// The sphere does not move towards the wall.
+    #[error("the sphere does not approach the wall: the velocity relative to it, along the normal, must be negative")]
+    NotApproaching,
+    /// The diameter is not between 0.1 nm and 10 m.
+    #[error("the diameter must lie between 1e-10 m and 10 m")]
+    Diameter,
+    /// The density is not positive, or not within a factor of 1000 of the law's sphere.
+    #[error("the density must be positive and within a factor of 1000 of the law's sphere")]
+    Density,
+    /// A velocity, spin or normal is NaN, infinite or beyond 1e9 m/s.
+    #[error("velocities must be finite and below 1e9 m/s, spins finite, the normal finite and not zero")]
+    NotFinite,
+    /// The concave surface is not wider than the sphere.
+    #[error("the surface is concave and its radius of curvature must exceed the sphere's radius")]
+    Curvature,
+}

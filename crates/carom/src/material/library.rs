@@ -1,0 +1,88 @@
+//! Materials by name and alias.
+
+use super::property::Fields;
+use super::{Material, SpecError};
+use crate::error::did_you_mean;
+use std::collections::BTreeMap;
+
+/// The embedded files of `data/materials`; a test keeps this list complete.
+pub(super) const BUILTIN: &[(&str, &str)] =
+    &[("kim-dunn-2007.toml", include_str!("../../../../data/materials/kim-dunn-2007.toml"))];
+
+/// A set of materials. Names and aliases are matched without regard to case; `_` and a space count as `-`.
+#[derive(Clone, Debug, Default)]
+pub struct Library {
+    materials: BTreeMap<String, Material>,
+    aliases: BTreeMap<String, String>,
+}
+
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    #[serde(default)]
+    material: BTreeMap<String, toml::Spanned<Fields>>,
+}
+
+fn key(name: &str) -> String {
+    name.trim().to_lowercase().replace(['_', ' '], "-")
+}
+
+impl Library {
+    /// The materials that come with carom, each value with its source (see `docs/materials.md`).
+    pub fn builtin() -> Self {
+        let mut library = Self::default();
+        for (_, text) in BUILTIN {
+            // the embedded files are read by a test one by one, so nothing can be refused here
+            let _ = library.extend_from_toml(text);
+        }
+        library
+    }
+
+    /// Adds the `[material.NAME]` tables of a TOML text; a name already there is replaced.
+    ///
+    /// # Errors
+    /// What is wrong in the text, with its place.
+    pub fn extend_from_toml(&mut self, text: &str) -> Result<(), SpecError> {
+        let file: File = toml::from_str(text)?;
+        for (name, fields) in file.material {
+            let span = fields.span();
+            let material = Material::from_fields(&name, fields.into_inner()).map_err(|mut e| {
+                e.message = format!("material {name}: {}", e.message);
+                e.at(Some(span))
+            })?;
+            self.insert(material);
+        }
+        Ok(())
+    }
+
+    /// Adds one material under its name and aliases.
+    pub fn insert(&mut self, material: Material) {
+        let name = key(&material.name);
+        for alias in &material.aliases {
+            self.aliases.insert(key(alias), name.clone());
+        }
+        self.aliases.remove(&name);
+        self.materials.insert(name, material);
+    }
+
+    /// The material of that name or alias.
+    ///
+    /// # Errors
+    /// An unknown name, with the nearest known one.
+    pub fn get(&self, name: &str) -> Result<&Material, SpecError> {
+        let wanted = key(name);
+        let canonical = self.aliases.get(&wanted).unwrap_or(&wanted);
+        self.materials.get(canonical).ok_or_else(|| {
+            let known = self.materials.keys().chain(self.aliases.keys()).map(String::as_str);
+            let near = did_you_mean(&wanted, known).map_or(String::new(), |s| format!("{s} "));
+            SpecError::new(format!("unknown material '{name}'")).help(format!(
+                "{near}`carom materials` lists all; properties may be given in place as rho=...,E=...,nu=..."
+            ))
+        })
+    }
+
+    /// All materials, by name.
+    pub fn iter(&self) -> impl Iterator<Item = &Material> {
+        self.materials.values()
+    }
+}

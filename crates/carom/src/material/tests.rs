@@ -1,0 +1,78 @@
+use super::library::BUILTIN;
+use super::*;
+
+#[test]
+fn every_embedded_file_reads_and_every_file_is_embedded() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/materials");
+    let mut names: Vec<String> = std::fs::read_dir(folder)
+        .expect("data/materials")
+        .map(|f| f.expect("entry").file_name().to_string_lossy().into_owned())
+        .filter(|n| !n.ends_with("-pairs.toml"))
+        .collect();
+    names.sort();
+    let mut embedded: Vec<&str> = BUILTIN.iter().map(|b| b.0).collect();
+    embedded.sort_unstable();
+    assert_eq!(names, embedded);
+    for (name, text) in BUILTIN {
+        if let Err(e) = Library::default().extend_from_toml(text) {
+            panic!("{}", e.located(name, text));
+        }
+    }
+}
+
+#[test]
+fn every_library_value_has_a_source_and_every_alias_one_owner() {
+    let library = Library::builtin();
+    let mut owners = std::collections::BTreeMap::new();
+    for m in library.iter() {
+        assert!(!m.description.is_empty(), "{} has no description", m.name);
+        for (kind, p) in &m.properties {
+            assert!(p.source.as_ref().is_some_and(|s| s.len() > 5), "{} {} has no source", m.name, kind.key());
+            assert!(
+                p.alternatives.iter().all(|a| a.source.is_some() && (a.value.is_some() || a.low.is_some())),
+                "{}: {}",
+                m.name,
+                kind.key()
+            );
+        }
+        for name in m.aliases.iter().chain([&m.name]) {
+            if let Some(other) = owners.insert(name.to_lowercase(), m.name.clone()) {
+                panic!("{name} names both {other} and {}", m.name);
+            }
+        }
+    }
+    assert_eq!(library.get("Stainless Steel").expect("there").name, "stainless-steel");
+}
+
+fn refusal(text: &str) -> String {
+    Library::default().extend_from_toml(text).expect_err("should be refused").located("my.toml", text)
+}
+
+#[test]
+fn wrong_materials_are_refused_at_their_place() {
+    let e = refusal("[material.x]\ndensity = \"8000 kg/m2\"\n");
+    assert!(e.starts_with("my.toml:2:11:") && e.contains("kg/m3"), "{e}");
+    let e = refusal("[material.x]\npoisson_ratio = { value = 0.5 }\n");
+    assert!(e.starts_with("my.toml:2:") && e.contains("0.5"), "{e}");
+    let e = refusal("[material.x]\ndensty = 3\n");
+    assert!(e.starts_with("my.toml:2:1:") && e.contains("densty"), "{e}");
+    let e = refusal("[material.x]\nyoung_modulus = { value = \"3 GPa\", low = \"4 GPa\" }\n");
+    assert!(e.contains("outside its range"), "{e}");
+    let e = refusal("[material.x]\nyoung_modulus = -1\n");
+    assert!(e.contains("young_modulus = -1"), "{e}");
+}
+
+#[test]
+fn inline_text_says_what_is_wrong() {
+    for (text, part) in [
+        ("rho=8000,E=190GPa,nu=0.6", "nu"),
+        ("roh=8000", "did you mean rho?"),
+        ("rho=8000,rho=3", "twice"),
+        ("rho=8000 J", "kg/m3"),
+        ("rho=-3", "-3"),
+        ("rho", "key=value"),
+    ] {
+        let e = Material::from_inline(text).map(|m| format!("{m:?}")).unwrap_or_else(|e| e.to_string());
+        assert!(e.contains(if part == "nu" { "poisson_ratio = 0.6" } else { part }), "{text}: {e}");
+    }
+}

@@ -1,0 +1,59 @@
+//! Hertzian (material) damping, `hertz-damping`, and adhesion damping, `adhesion-damping`.
+//!
+//! Kim & Dunn (2007), Eqs 22–24, J. Aerosol Sci. 38, 532–549, <https://doi.org/10.1016/j.jaerosci.2007.03.006>:
+//!
+//! - Hertzian damping takes Ψ_H C_H with Ψ_H = (5/2)(2/3)^{5/2} v (Eqs 20, 22 and 23; it needs neither size nor stiffness);
+//! - adhesion damping takes Ψ_A C_A v, with Ψ_A of [`super::adhesion`].
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | v | normal approach speed | m/s |
+//! | C_H, C_A | damping coefficients, fitted to one diameter of a pair and reused for the others | s/m |
+//!
+//! Both are crude quadratures of the damping forces: resolved in time ([`crate::resolved`]) the first-order Hertzian loss is
+//! (4/3)C_H v instead of 0.907 C_H v, and the adhesion damping of a separation-only contact 0.757 Ψ_A C_A v instead of Ψ_A C_A v.
+//! At high speed damping alone reaches 1: the end of the model's domain, reported as `damping-exhausted`.
+//!
+//! ```
+//! let psi_h = carom::normal::damping::HERTZ * 1.0;
+//! assert!((psi_h - 0.907218423253029).abs() < 1e-15);
+//! ```
+
+/// (5/2)(2/3)^{5/2} = (10/9)√(2/3).
+pub const HERTZ: f64 = 0.907_218_423_253_029;
+
+/// Damping coefficients, s/m; zero for none.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Damping {
+    /// C_A.
+    pub adhesion: f64,
+    /// C_H.
+    pub hertz: f64,
+}
+
+impl Damping {
+    /// Fraction lost to Hertzian damping at approach speed `v` (m/s).
+    #[inline(always)]
+    pub fn hertz_fraction(&self, v: f64) -> f64 {
+        HERTZ * self.hertz * v
+    }
+
+    /// Fraction lost to adhesion damping, given Ψ_A at that speed.
+    #[inline(always)]
+    pub fn adhesion_fraction(&self, psi_a: f64, v: f64) -> f64 {
+        psi_a * self.adhesion * v
+    }
+
+    /// No damping at all?
+    pub fn is_none(&self) -> bool {
+        self.adhesion == 0.0 && self.hertz == 0.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn the_constant_is_the_papers() {
+        assert!((super::HERTZ - 2.5 * (2.0f64 / 3.0).powf(2.5)).abs() < 1e-15);
+    }
+}

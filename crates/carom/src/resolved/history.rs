@@ -1,0 +1,77 @@
+//! Time histories of a resolved contact.
+
+use super::Resolved;
+use crate::math;
+use crate::normal::Size;
+use std::f64::consts::PI;
+
+/// Scales that turn the dimensionless contact into SI units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scales {
+    /// Hertzian stiffness K, Pa.
+    pub stiffness: f64,
+    /// Sphere density, kg/m³ (the law's own; the size's ratio is applied).
+    pub density: f64,
+}
+
+/// One moment of a contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Moment {
+    /// Time since first contact, s.
+    pub time: f64,
+    /// Overlap x, m.
+    pub overlap: f64,
+    /// ẋ, m/s: positive on approach.
+    pub speed: f64,
+    /// Hertz force without damping, N.
+    pub hertz_force: f64,
+    /// Net force on the sphere, N, positive away from the wall.
+    pub net_force: f64,
+    /// Slip of the contact point, m/s, along its initial direction; 0 once it rolls.
+    pub slip: f64,
+}
+
+impl Resolved {
+    /// The contact from first touch to its end, `per_step` moments in each integration step; initial slip (m/s) and friction
+    /// coefficient give the tangential motion (Eqs 26–28): Coulomb's law on the Hertz force until the slip ends.
+    pub fn history(
+        &self,
+        v: f64,
+        size: &Size,
+        scales: &Scales,
+        slip: f64,
+        friction: f64,
+        per_step: usize,
+    ) -> Vec<Moment> {
+        let contact = self.contact(v, size);
+        let mass = 4.0 / 3.0 * PI * scales.density * size.density_ratio * size.radius * size.radius * size.radius;
+        let r = size.radius * size.kappa;
+        let length = math::pow(mass * v * v / (r.sqrt() * scales.stiffness), 0.4);
+        let force = mass * v * v / length;
+        let per_step = per_step.max(1);
+        let mut moments = Vec::new();
+        let mut separating = false;
+        contact.solve(&mut |expansion, h| {
+            let first = usize::from(!moments.is_empty());
+            for i in first..=per_step {
+                let state = expansion.at(h * i as f64 / per_step as f64);
+                let x = (state.s * state.s).max(0.0);
+                let hertz = state.s.max(0.0) * x;
+                let adhesive = if contact.reversible || separating { contact.adhesion * state.s.max(0.0) } else { 0.0 };
+                let net = hertz * (1.0 + contact.hertz_damping * state.u)
+                    - adhesive * (1.0 - contact.adhesion_damping * state.u);
+                moments.push(Moment {
+                    time: state.time * length / v,
+                    overlap: x * length,
+                    speed: state.u * v,
+                    hertz_force: hertz * force,
+                    net_force: net * force,
+                    slip: slip.signum() * (slip.abs() - 3.5 * friction * state.impulse * v).max(0.0),
+                });
+            }
+            // the step that reaches the turning point is the last of the approach
+            separating |= expansion.at(h).u <= 1e-9;
+        });
+        moments
+    }
+}

@@ -1,0 +1,159 @@
+//! The text form of a wall law: one TOML table, read here for the command, case files, the C interface and plug-ins alike.
+//!
+//! ```toml
+//! sphere = "copper"              # a material's name, or a table of properties
+//! surface = "glass"
+//! normal = "ea"                  # ea | eap | thornton-ning | tabor | constant | by-angle | resolved, or a list of losses
+//! tangential = "rolling"         # rolling | walton | constant | by-angle
+//! friction = 0.2
+//! roughness_factor = 0.8         # C_R; or roughness = "1 nm"
+//! adhesion_damping = "1.3 s/m"   # C_A
+//! hertz_damping = "0.007 s/m"    # C_H
+//! ```
+//!
+//! Quantities are strings with units or bare SI numbers. Unknown keys, wrong dimensions, impossible values and combinations that make no
+//! sense are errors that point at the place and say what would be right.
+//!
+//! ```
+//! let error = carom::spec::parse_law("normal = \"ea\"\nfrictoin = 0.2\n").unwrap_err();
+//! assert_eq!(error.line_column("normal = \"ea\"\nfrictoin = 0.2\n"), Some((2, 1)));
+//! ```
+
+mod compile;
+mod curve;
+mod normal;
+mod values;
+
+pub use curve::CurveSpec;
+pub use normal::{NormalKind, NormalSpec};
+pub use values::At;
+
+use crate::error::{SpecError, did_you_mean};
+use crate::material::MaterialRef;
+use crate::resolved::AdhesionMode;
+use crate::units::{InverseSpeed, Length, Number, Pressure, Speed, SurfaceEnergy};
+use std::collections::BTreeMap;
+
+/// A wall law as written. Everything but `normal` may be absent; what a law needs and lacks is reported by [`LawSpec::compile`].
+#[derive(Clone, Debug, Default, PartialEq, serde::Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct LawSpec {
+    /// The sphere's material.
+    pub sphere: Option<At<MaterialRef>>,
+    /// The surface's material.
+    pub surface: Option<At<MaterialRef>>,
+    /// Normal law.
+    pub normal: Option<At<NormalSpec>>,
+    /// Resolved only: when adhesion acts.
+    pub adhesion: Option<At<AdhesionMode>>,
+    /// Tangential law; `rolling` when absent, `constant` or `by-angle` when a tangential restitution is given.
+    pub tangential: Option<At<TangentialKind>>,
+    /// Coulomb friction coefficient f.
+    pub friction: Option<At<Number>>,
+    /// Walton's β₀.
+    pub walton_beta: Option<At<Number>>,
+    /// C_R.
+    pub roughness_factor: Option<At<Number>>,
+    /// σ_r.
+    pub roughness: Option<At<Length>>,
+    /// C_A.
+    pub adhesion_damping: Option<At<InverseSpeed>>,
+    /// C_H.
+    pub hertz_damping: Option<At<InverseSpeed>>,
+    /// Radius of curvature r_s of the surface: `"inf"` for flat, negative for concave.
+    pub surface_curvature: Option<At<values::CurvatureRadius>>,
+    /// Normal restitution of the constant and by-angle laws.
+    pub restitution: Option<At<CurveSpec>>,
+    /// Tangential restitution e_t.
+    pub tangential_restitution: Option<At<CurveSpec>>,
+    /// Tabor's fitted yield velocity.
+    pub yield_velocity: Option<At<Speed>>,
+    /// Meyer's index n.
+    pub meyer_index: Option<At<Number>>,
+    /// Thornton–Ning's limiting peak pressure p_y.
+    pub limiting_pressure: Option<At<Pressure>>,
+    /// Interfacial parameter Φ.
+    pub interfacial_parameter: Option<At<Number>>,
+    /// Equilibrium spacing z₀.
+    pub equilibrium_spacing: Option<At<Length>>,
+    /// Override of the work of adhesion w.
+    pub work_of_adhesion: Option<At<SurfaceEnergy>>,
+    /// Override of the stiffness K.
+    pub stiffness: Option<At<Pressure>>,
+    /// Override of the plastic constant k.
+    pub plastic_constant: Option<At<Pressure>>,
+}
+
+/// Tangential laws by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TangentialKind {
+    /// `rolling`
+    Rolling,
+    /// `walton`
+    Walton,
+    /// `micro-slip`
+    MicroSlip,
+    /// `constant`
+    Constant,
+    /// `by-angle`
+    ByAngle,
+}
+
+values::names! {
+    TangentialKind, "tangential law",
+    "rolling" => Rolling, "walton" => Walton, "micro-slip" => MicroSlip, "constant" => Constant, "by-angle" => ByAngle,
+}
+values::names! {
+    AdhesionMode, "reading of adhesion",
+    "separation-only" => SeparationOnly, "reversible" => Reversible,
+}
+
+/// Reads one wall law: the keys of a `[law.NAME]` table, without the header.
+///
+/// # Errors
+/// What is wrong, with its place in `text`.
+pub fn parse_law(text: &str) -> Result<LawSpec, SpecError> {
+    toml::from_str(text).map_err(SpecError::from)
+}
+
+#[derive(serde::Deserialize)]
+struct File {
+    #[serde(default)]
+    law: BTreeMap<String, LawSpec>,
+    #[serde(flatten)]
+    _others: BTreeMap<String, toml::Value>,
+}
+
+/// Reads the law `name` from a text with `[law.NAME]` tables (a law file or a whole case file; other tables are left alone).
+///
+/// # Errors
+/// A text that cannot be read, a bad law, an unknown name (with the nearest known one).
+///
+/// ```
+/// let text = "[law.glass]\nnormal = \"constant\"\nrestitution = 0.9\nfriction = 0.1\n";
+/// assert!(carom::spec::parse_named_law(text, "glass").is_ok());
+/// assert!(carom::spec::parse_named_law(text, "glas").unwrap_err().to_string().contains("did you mean glass?"));
+/// ```
+pub fn parse_named_law(text: &str, name: &str) -> Result<LawSpec, SpecError> {
+    #[derive(serde::Deserialize)]
+    struct Laws {
+        #[serde(default)]
+        law: BTreeMap<String, toml::Spanned<toml::Value>>,
+    }
+    let found: Laws = toml::from_str(text)?;
+    if !found.law.contains_key(name) {
+        let names: Vec<&str> = found.law.keys().map(String::as_str).collect();
+        let near = did_you_mean(name, names.iter().copied()).unwrap_or_default();
+        let known = if names.is_empty() {
+            "the text has no [law.NAME] table".to_owned()
+        } else {
+            format!("known are {}", names.join(", "))
+        };
+        return Err(SpecError::new(format!("no law '{name}'")).help(format!("{near} {known}").trim().to_owned()));
+    }
+    let mut file: File = toml::from_str(text)?;
+    file.law.remove(name).ok_or_else(|| SpecError::new(format!("no law '{name}'")))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,402 @@
+//! From a law as written to a law that answers: every need is checked here, once.
+
+use super::curve::Which;
+use super::{At, CurveSpec, LawSpec, NormalKind, NormalSpec, TangentialKind};
+use crate::error::SpecError;
+use crate::material::{Library, Material, MaterialRef};
+use crate::normal::adhesion::{Jkr, Work};
+use crate::normal::damping::Damping;
+use crate::normal::empirical::Curve;
+use crate::normal::ledger::{Adhesion, Ledger, Plastic};
+use crate::normal::plastic::Kadomtsev;
+use crate::normal::tabor::Tabor;
+use crate::normal::thornton_ning::{PRESSURE_OVER_STRENGTH, ThorntonNing};
+use crate::normal::{Loss, plastic};
+use crate::pair::{Overrides, Pair};
+use crate::resolved::Resolved;
+use crate::roughness;
+use crate::tangential::Tangential;
+use crate::validity::Validity;
+use crate::wall::{NormalLaw, WallLaw};
+
+fn need(what: &str, key: &str) -> SpecError {
+    SpecError::new(format!("the law needs {what}")).help(format!("give {key}"))
+}
+
+/// The number, if it is given and `fits`.
+fn checked<T>(
+    given: &Option<At<T>>,
+    key: &str,
+    get: impl Fn(&T) -> f64,
+    fits: impl Fn(f64) -> bool,
+    right: &str,
+) -> Result<Option<f64>, SpecError> {
+    let Some(at) = given else { return Ok(None) };
+    let value = get(&at.value);
+    if fits(value) {
+        Ok(Some(value))
+    } else {
+        Err(SpecError::new(format!("{key} = {value}")).help(right).at(at.span.clone()))
+    }
+}
+
+fn positive(v: f64) -> bool {
+    v > 0.0 && v.is_finite()
+}
+
+fn not_negative(v: f64) -> bool {
+    v >= 0.0 && v.is_finite()
+}
+
+/// The numbers of a law, each within its range.
+struct Numbers {
+    adhesion_damping: Option<f64>,
+    hertz_damping: Option<f64>,
+    roughness: Option<f64>,
+    roughness_factor: f64,
+    spacing: f64,
+    surface_curvature: f64,
+    overrides: Overrides,
+}
+
+impl LawSpec {
+    /// Checks the law and turns it into one that answers.
+    ///
+    /// # Errors
+    /// What is missing, impossible or contradictory, with its place in the text the law was read from.
+    pub fn compile(&self, library: &Library) -> Result<WallLaw, SpecError> {
+        let normal_spec = self
+            .normal
+            .as_ref()
+            .ok_or_else(|| need("a normal law", &format!("normal = \"{}\"", NormalKind::NAMES.join("\" or \""))))?;
+        let numbers = self.numbers()?;
+        let pair = self.pair(library, &numbers)?;
+        let place = normal_spec.span.clone();
+        self.refuse_idle_keys(&normal_spec.value)?;
+        let normal = self.normal_law(&normal_spec.value, pair.as_ref(), &numbers).map_err(|e| e.at(place))?;
+        let tangential = self.tangential_law()?;
+        let mut law = WallLaw::assemble(normal, tangential, pair, numbers.surface_curvature);
+        law.roughness = numbers.roughness;
+        law.roughness_factor = numbers.roughness_factor;
+        law.spacing = numbers.spacing;
+        let extrapolated =
+            self.roughness_factor.is_none() && numbers.roughness.is_some_and(|s| s > roughness::CALIBRATED_ROUGHNESS);
+        law.validity = Validity::ROUGHNESS_EXTRAPOLATED.when(extrapolated && uses_roughness(&law.normal));
+        Ok(law)
+    }
+
+    fn numbers(&self) -> Result<Numbers, SpecError> {
+        let damping = "zero or more is wanted, in s/m";
+        let roughness = checked(&self.roughness, "roughness", |l| l.0, not_negative, "zero or more is wanted, in m")?;
+        let given = checked(
+            &self.roughness_factor,
+            "roughness_factor",
+            |n| n.0,
+            |v| v > 0.0 && v <= 1.0,
+            "C_R lies above 0 and up to 1",
+        )?;
+        if let (Some(_), Some(at)) = (given, &self.roughness) {
+            return Err(SpecError::new("both roughness_factor and roughness")
+                .help("C_R is given or follows from the roughness: keep one")
+                .at(at.span.clone()));
+        }
+        let spacing = checked(
+            &self.equilibrium_spacing,
+            "equilibrium_spacing",
+            |l| l.0,
+            positive,
+            "a positive length is wanted",
+        )?
+        .unwrap_or(roughness::CALIBRATED_SPACING);
+        let radius = checked(
+            &self.surface_curvature,
+            "surface_curvature",
+            |r| r.0,
+            |v| v != 0.0 && !v.is_nan(),
+            "a radius of curvature, \"inf\" for a flat surface, negative for a concave one",
+        )?;
+        Ok(Numbers {
+            adhesion_damping: checked(&self.adhesion_damping, "adhesion_damping", |d| d.0, not_negative, damping)?,
+            hertz_damping: checked(&self.hertz_damping, "hertz_damping", |d| d.0, not_negative, damping)?,
+            roughness,
+            roughness_factor: given.unwrap_or_else(|| roughness.map_or(1.0, |s| roughness::factor(s, spacing))),
+            spacing,
+            surface_curvature: radius.map_or(0.0, |r| 1.0 / r),
+            overrides: Overrides {
+                work_of_adhesion: checked(
+                    &self.work_of_adhesion,
+                    "work_of_adhesion",
+                    |w| w.0,
+                    not_negative,
+                    "zero or more is wanted, in J/m2",
+                )?,
+                stiffness: checked(&self.stiffness, "stiffness", |k| k.0, positive, "a positive pressure is wanted")?,
+                plastic_constant: checked(
+                    &self.plastic_constant,
+                    "plastic_constant",
+                    |k| k.0,
+                    positive,
+                    "a positive pressure is wanted",
+                )?,
+                interfacial_parameter: checked(
+                    &self.interfacial_parameter,
+                    "interfacial_parameter",
+                    |p| p.0,
+                    positive,
+                    "a positive number, about 1",
+                )?,
+            },
+        })
+    }
+
+    fn pair(&self, library: &Library, numbers: &Numbers) -> Result<Option<Pair>, SpecError> {
+        let resolve = |given: &At<MaterialRef>| given.value.resolve(library).map_err(|e| e.at(given.span.clone()));
+        let sphere = self.sphere.as_ref().map(resolve).transpose()?;
+        let surface = self.surface.as_ref().map(resolve).transpose()?;
+        if sphere.is_none() && surface.is_none() && numbers.overrides == Overrides::default() {
+            return Ok(None);
+        }
+        let unnamed = |what: &str| Material { name: format!("the {what} (not given)"), ..Material::default() };
+        Ok(Some(Pair::new(
+            &sphere.unwrap_or_else(|| unnamed("sphere")),
+            &surface.unwrap_or_else(|| unnamed("surface")),
+            &numbers.overrides,
+        )))
+    }
+
+    /// Keys that would silently do nothing, where a reader would expect them to.
+    fn refuse_idle_keys(&self, normal: &NormalSpec) -> Result<(), SpecError> {
+        let table = matches!(normal, NormalSpec::Named(NormalKind::Constant | NormalKind::ByAngle));
+        if let (Some(at), false) = (&self.restitution, table) {
+            return Err(SpecError::new("restitution has no effect on this normal law")
+                .help("write normal = \"constant\" or \"by-angle\", or leave it out")
+                .at(at.span.clone()));
+        }
+        let takes = |loss: Loss| match normal {
+            NormalSpec::Losses(list) => list.contains(&loss),
+            NormalSpec::Named(NormalKind::ThorntonNing | NormalKind::Tabor) => false,
+            NormalSpec::Named(_) => true,
+        };
+        for (key, span, loss) in [
+            ("adhesion_damping", self.adhesion_damping.as_ref().map(|a| &a.span), Loss::AdhesionDamping),
+            ("hertz_damping", self.hertz_damping.as_ref().map(|a| &a.span), Loss::HertzDamping),
+        ] {
+            if let (Some(span), false) = (span, takes(loss)) {
+                return Err(SpecError::new(format!("{key} has no effect: the law has no {}", loss.name()))
+                    .help(format!("list the losses with \"{}\" among them, or leave the key out", loss.name()))
+                    .at(span.clone()));
+            }
+        }
+        if let (Some(at), false) = (&self.adhesion, matches!(normal, NormalSpec::Named(NormalKind::Resolved))) {
+            return Err(SpecError::new("adhesion is a choice of the resolved law alone")
+                .help("write normal = \"resolved\", or leave it out")
+                .at(at.span.clone()));
+        }
+        Ok(())
+    }
+
+    fn normal_law(&self, spec: &NormalSpec, pair: Option<&Pair>, numbers: &Numbers) -> Result<NormalLaw, SpecError> {
+        let damping = [Loss::AdhesionDamping, Loss::HertzDamping];
+        let given = |losses: &[Loss]| {
+            let coefficients = [numbers.adhesion_damping, numbers.hertz_damping];
+            let extra = damping.iter().zip(coefficients).filter(|(_, c)| c.is_some()).map(|(l, _)| *l);
+            losses.iter().copied().chain(extra).collect::<Vec<_>>()
+        };
+        let losses = match spec {
+            NormalSpec::Losses(list) => list.clone(),
+            NormalSpec::Named(NormalKind::Ea) => given(&[Loss::AdhesionWork]),
+            NormalSpec::Named(NormalKind::Eap) => given(&[Loss::PlasticKadomtsev, Loss::AdhesionWork]),
+            NormalSpec::Named(NormalKind::ThorntonNing) => vec![Loss::PlasticThorntonNing, Loss::AdhesionJkr],
+            NormalSpec::Named(NormalKind::Tabor) => vec![Loss::PlasticTabor],
+            NormalSpec::Named(kind @ (NormalKind::Constant | NormalKind::ByAngle)) => {
+                return self.table(*kind).map(NormalLaw::Table);
+            }
+            NormalSpec::Named(NormalKind::Resolved) => {
+                let pair = pair.ok_or_else(|| {
+                    need("a sphere and a surface", "sphere and surface, by name or with their properties")
+                })?;
+                let damping = Damping {
+                    adhesion: numbers.adhesion_damping.unwrap_or(0.0),
+                    hertz: numbers.hertz_damping.unwrap_or(0.0),
+                };
+                let mode = self.adhesion.as_ref().map(|a| a.value).unwrap_or_default();
+                return Ok(NormalLaw::Resolved(Resolved::new(work(pair, numbers)?, damping, mode)));
+            }
+        };
+        super::normal::check(&losses)?;
+        self.ledger(&losses, pair, numbers).map(NormalLaw::Ledger)
+    }
+
+    fn table(&self, kind: NormalKind) -> Result<Curve, SpecError> {
+        let example =
+            if kind == NormalKind::Constant { "restitution = 0.7" } else { "restitution = { polynomial = [...] }" };
+        let at = self.restitution.as_ref().ok_or_else(|| need("a restitution", example))?;
+        form_fits(kind == NormalKind::Constant, at, "normal")?;
+        at.value.resolve(Which::Normal).map_err(|e| e.at(at.span.clone()))
+    }
+
+    fn ledger(&self, losses: &[Loss], pair: Option<&Pair>, numbers: &Numbers) -> Result<Ledger, SpecError> {
+        let mut ledger = Ledger::lossless();
+        let bare_tabor = losses == [Loss::PlasticTabor];
+        let wanted = || need("a sphere and a surface", "sphere and surface, by name or with their properties");
+        for loss in losses {
+            if bare_tabor {
+                ledger.plastic = Plastic::Tabor(self.tabor()?);
+                break;
+            }
+            let pair = pair.ok_or_else(wanted)?;
+            match loss {
+                Loss::AdhesionWork => {
+                    ledger.adhesion = Adhesion::Work;
+                    ledger.work = work(pair, numbers)?;
+                }
+                Loss::AdhesionDamping => {
+                    ledger.work = work(pair, numbers)?;
+                    ledger.damping.adhesion = numbers
+                        .adhesion_damping
+                        .ok_or_else(|| need("a coefficient for adhesion-damping", "adhesion_damping, in s/m"))?;
+                }
+                Loss::HertzDamping => {
+                    ledger.damping.hertz = numbers
+                        .hertz_damping
+                        .ok_or_else(|| need("a coefficient for hertz-damping", "hertz_damping, in s/m"))?
+                }
+                Loss::AdhesionJkr => {
+                    self.refuse_roughness_beside_jkr(losses)?;
+                    ledger.adhesion =
+                        Adhesion::Jkr(Jkr::new(pair.effective_modulus()?, pair.work_of_adhesion()?, pair.density()?));
+                }
+                Loss::PlasticKadomtsev => {
+                    ledger.plastic = Plastic::Kadomtsev(Kadomtsev::new(
+                        pair.effective_modulus()?,
+                        pair.plastic_constant()?,
+                        pair.density()?,
+                    ));
+                }
+                Loss::PlasticThorntonNing => {
+                    let given = checked(
+                        &self.limiting_pressure,
+                        "limiting_pressure",
+                        |p| p.0,
+                        positive,
+                        "a positive pressure is wanted",
+                    )?;
+                    let pressure =
+                        given.map_or_else(|| pair.plastic_constant().map(|k| 2.0 * k * PRESSURE_OVER_STRENGTH), Ok)?;
+                    ledger.plastic =
+                        Plastic::ThorntonNing(ThorntonNing::new(pair.effective_modulus()?, pressure, pair.density()?));
+                }
+                Loss::PlasticTabor => ledger.plastic = Plastic::Tabor(self.tabor()?),
+            }
+        }
+        Ok(ledger)
+    }
+
+    fn refuse_roughness_beside_jkr(&self, losses: &[Loss]) -> Result<(), SpecError> {
+        let span = self.roughness_factor.as_ref().map(|a| &a.span).or(self.roughness.as_ref().map(|a| &a.span));
+        match span {
+            Some(span) if !losses.contains(&Loss::AdhesionDamping) => {
+                Err(SpecError::new("a roughness factor beside adhesion-jkr, which has none in it")
+                    .help("leave roughness_factor and roughness out, or use adhesion-work")
+                    .at(span.clone()))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn tabor(&self) -> Result<Tabor, SpecError> {
+        let yield_velocity =
+            checked(&self.yield_velocity, "yield_velocity", |v| v.0, positive, "a positive speed is wanted")?
+                .ok_or_else(|| need("Tabor's fitted yield velocity", "yield_velocity = \"0.09 m/s\""))?;
+        let meyer_index = checked(
+            &self.meyer_index,
+            "meyer_index",
+            |n| n.0,
+            |n| n > 0.5 && n < 3.0,
+            "Meyer's index lies between 0.5 and 3 (2 without, 2.5 with full work hardening)",
+        )?
+        .ok_or_else(|| need("Meyer's index", "meyer_index = 2.29"))?;
+        Ok(Tabor { yield_velocity, meyer_index })
+    }
+
+    fn tangential_law(&self) -> Result<Tangential, SpecError> {
+        let kind = self.tangential.as_ref().map(|t| t.value).unwrap_or_else(|| match &self.tangential_restitution {
+            None => TangentialKind::Rolling,
+            Some(at) if at.value.is_constant() => TangentialKind::Constant,
+            Some(_) => TangentialKind::ByAngle,
+        });
+        let place = self.tangential.as_ref().and_then(|t| t.span.clone());
+        let friction = || {
+            checked(&self.friction, "friction", |f| f.0, not_negative, "zero or more is wanted")?.ok_or_else(|| {
+                need("a friction coefficient for oblique impacts", "friction = 0.2, say").at(place.clone())
+            })
+        };
+        if let (Some(at), true) = (
+            &self.tangential_restitution,
+            matches!(kind, TangentialKind::Rolling | TangentialKind::Walton | TangentialKind::MicroSlip),
+        ) {
+            return Err(SpecError::new(format!(
+                "tangential_restitution has no effect with tangential = \"{}\"",
+                kind.name()
+            ))
+            .help("write tangential = \"constant\" or \"by-angle\", or leave it out")
+            .at(at.span.clone()));
+        }
+        Ok(match kind {
+            TangentialKind::Rolling => Tangential::Friction { friction: friction()?, beta: 0.0 },
+            TangentialKind::Walton => {
+                let beta = checked(
+                    &self.walton_beta,
+                    "walton_beta",
+                    |b| b.0,
+                    |b| (0.0..=1.0).contains(&b),
+                    "it lies between 0 (rolling) and 1 (slip reversed)",
+                )?
+                .ok_or_else(|| need("Walton's beta", "walton_beta = 0.4, say").at(place.clone()))?;
+                Tangential::Friction { friction: friction()?, beta }
+            }
+            TangentialKind::MicroSlip => {
+                return Err(SpecError::new("micro-slip is not available yet")
+                    .help("rolling, walton, constant or by-angle are")
+                    .at(place));
+            }
+            TangentialKind::Constant | TangentialKind::ByAngle => {
+                let at = self
+                    .tangential_restitution
+                    .as_ref()
+                    .ok_or_else(|| need("a tangential restitution", "tangential_restitution = 0.9, say").at(place))?;
+                form_fits(kind == TangentialKind::Constant, at, "tangential")?;
+                Tangential::Restitution(at.value.resolve(Which::Tangential).map_err(|e| e.at(at.span.clone()))?)
+            }
+        })
+    }
+}
+
+/// A `constant` law takes a number, a `by-angle` law a curve.
+fn form_fits(constant: bool, at: &At<CurveSpec>, key: &str) -> Result<(), SpecError> {
+    let right = match (constant, at.value.is_constant()) {
+        (true, false) => format!("a curve needs {key} = \"by-angle\""),
+        (false, true) => format!("a number needs {key} = \"constant\""),
+        _ => return Ok(()),
+    };
+    Err(SpecError::new(format!(
+        "{key} = \"{}\" does not fit its restitution",
+        if constant { "constant" } else { "by-angle" }
+    ))
+    .help(right)
+    .at(at.span.clone()))
+}
+
+fn work(pair: &Pair, numbers: &Numbers) -> Result<Work, SpecError> {
+    Ok(Work::new(pair.stiffness()?, pair.work_of_adhesion()?, numbers.roughness_factor, pair.density()?))
+}
+
+fn uses_roughness(normal: &NormalLaw) -> bool {
+    match normal {
+        NormalLaw::Ledger(ledger) => ledger.uses_work(),
+        NormalLaw::Table(_) => false,
+        NormalLaw::Resolved(_) => true,
+    }
+}
+
+const _: () = assert!(plastic::BETA <= 0.6);

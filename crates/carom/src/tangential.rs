@@ -1,0 +1,63 @@
+//! Tangential laws: what an oblique impact does to the sliding speed and the spin.
+//!
+//! A friction law answers with an impulse per mass against the slip of the contact point, v_s = v_t + ω × (−Rû); from it follow
+//! (Kim & Dunn 2007, §3.2, J. Aerosol Sci. 38, 532–549, <https://doi.org/10.1016/j.jaerosci.2007.03.006>)
+//!
+//! Δv_t = −P v̂_s,  Δω = (5/2)(P/R)(û × v̂_s),  impulse ratio μ = P/((1 + e)v_n).
+//!
+//! The impulse opposes the slip, never a coordinate axis, so nothing changes when the wall is rotated. The other kind gives the
+//! rebound's tangential speed of the centre outright ([`constant`]) and leaves the spin alone.
+
+pub mod constant;
+pub mod rolling;
+pub mod walton;
+
+use crate::normal::empirical::Curve;
+
+/// How the contact ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Contact {
+    /// Sliding to the end of contact.
+    Sliding,
+    /// Rolling (no slip) at the end of contact.
+    Rolling,
+    /// Partial slip of an elastic contact.
+    MicroSlip,
+    /// No tangential contact force: no slip, a law that gives e_t outright, or a capture.
+    #[default]
+    None,
+}
+
+impl Contact {
+    /// The word in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Sliding => "sliding",
+            Self::Rolling => "rolling",
+            Self::MicroSlip => "micro-slip",
+            Self::None => "none",
+        }
+    }
+}
+
+/// A tangential law, compiled.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Tangential {
+    /// Coulomb friction f, and a contact point that rebounds with β₀ times its slip: 0 is the paper's rolling.
+    Friction {
+        /// Coulomb friction coefficient f.
+        friction: f64,
+        /// Walton's β₀, 0 for rigid-body rolling.
+        beta: f64,
+    },
+    /// e_t of the centre, constant or by angle; the spin stays.
+    Restitution(Curve),
+}
+
+/// Impulse per mass against the slip, m/s: (P, sliding to the end?). `normal_impulse` is (1 + e)v_n.
+#[inline(always)]
+pub(crate) fn friction_impulse(friction: f64, beta: f64, slip: f64, normal_impulse: f64) -> (f64, bool) {
+    let stick = walton::stick_impulse(beta, slip);
+    let cap = friction * normal_impulse;
+    (if cap < stick { cap } else { stick }, cap < stick)
+}

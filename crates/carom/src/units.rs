@@ -1,0 +1,96 @@
+//! Quantities with units: `"90 um"`, `"1.2 J/m2"`, `"24 degC"`, or a bare SI number.
+//!
+//! One type per dimension, each a wrapped `f64` in SI units. A text is a number followed by a product of units
+//! (`kg/m3`, `Pa s`, `m s-1`, `m/s^2`) with SI prefixes; errors name the character where the text goes wrong and say
+//! what would be right. Every type reads from TOML (string or number) and from a command line (`FromStr`).
+
+mod parse;
+
+pub use parse::UnitError;
+use serde::de::{self, Deserializer, Visitor};
+
+/// Exponents of metre, kilogram, second and kelvin. Angles count as pure numbers.
+pub type Dimension = [i8; 4];
+
+macro_rules! quantities {
+    ($($(#[$doc:meta])* $name:ident, $what:literal, $dim:expr, $si:literal, $example:literal;)*) => {$(
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+        pub struct $name(pub f64);
+
+        impl $name {
+            /// Exponents of m, kg, s, K.
+            pub const DIMENSION: Dimension = $dim;
+            /// The SI unit, as written on an axis.
+            pub const SI: &'static str = $si;
+        }
+
+        impl std::str::FromStr for $name {
+            type Err = UnitError;
+            fn from_str(text: &str) -> Result<Self, UnitError> {
+                parse::parse(text, &parse::Wanted { what: $what, dimension: $dim, si: $si, example: $example }).map($name)
+            }
+        }
+
+        impl<'de> de::Deserialize<'de> for $name {
+            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                struct Text;
+                impl Visitor<'_> for Text {
+                    type Value = $name;
+                    fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                        write!(f, "a {} such as \"{}\", or a number in {}", $what, $example, if $si.is_empty() { "no unit" } else { $si })
+                    }
+                    fn visit_f64<E: de::Error>(self, v: f64) -> Result<$name, E> {
+                        if v.is_finite() { Ok($name(v)) } else { Err(E::custom(format!("{v} is not a finite {}", $what))) }
+                    }
+                    fn visit_i64<E: de::Error>(self, v: i64) -> Result<$name, E> { Ok($name(v as f64)) }
+                    fn visit_u64<E: de::Error>(self, v: u64) -> Result<$name, E> { Ok($name(v as f64)) }
+                    fn visit_str<E: de::Error>(self, v: &str) -> Result<$name, E> { v.parse().map_err(E::custom) }
+                }
+                deserializer.deserialize_any(Text)
+            }
+        }
+    )*};
+}
+
+quantities! {
+    /// A length, m.
+    Length, "length", [1, 0, 0, 0], "m", "90 um";
+    /// A time, s.
+    Time, "time", [0, 0, 1, 0], "s", "10 ms";
+    /// A speed, m/s.
+    Speed, "speed", [1, 0, -1, 0], "m/s", "2 m/s";
+    /// An acceleration, m/s².
+    Acceleration, "acceleration", [1, 0, -2, 0], "m/s2", "9.81 m/s2";
+    /// A mass density, kg/m³.
+    Density, "density", [-3, 1, 0, 0], "kg/m3", "8000 kg/m3";
+    /// A pressure, stress or elastic modulus, Pa.
+    Pressure, "pressure", [-1, 1, -2, 0], "Pa", "190 GPa";
+    /// An energy per area, J/m² (the same dimension as N/m).
+    SurfaceEnergy, "surface energy", [0, 1, -2, 0], "J/m2", "1.2 J/m2";
+    /// A dynamic viscosity, Pa s.
+    Viscosity, "dynamic viscosity", [-1, 1, -1, 0], "Pa s", "1.83e-5 Pa s";
+    /// A kinematic viscosity, m²/s.
+    KinematicViscosity, "kinematic viscosity", [2, 0, -1, 0], "m2/s", "1.5e-5 m2/s";
+    /// A temperature, K (degC and degF are converted).
+    Temperature, "temperature", [0, 0, 0, 1], "K", "24 degC";
+    /// An angle, rad.
+    Angle, "angle", [0, 0, 0, 0], "rad", "30 deg";
+    /// An angular velocity, rad/s.
+    AngularVelocity, "angular velocity", [0, 0, -1, 0], "rad/s", "100 rad/s";
+    /// A mass, kg.
+    Mass, "mass", [0, 1, 0, 0], "kg", "1 mg";
+    /// A mass flow, kg/s.
+    MassFlow, "mass flow", [0, 1, -1, 0], "kg/s", "1 g/s";
+    /// The damping coefficients C_A and C_H, s/m.
+    InverseSpeed, "damping coefficient", [-1, 0, 1, 0], "s/m", "1.3 s/m";
+    /// A frequency, 1/s.
+    Frequency, "frequency", [0, 0, -1, 0], "1/s", "100 Hz";
+    /// Turbulent kinetic energy per mass, m²/s².
+    SpecificEnergy, "specific energy", [2, 0, -2, 0], "m2/s2", "0.1 m2/s2";
+    /// A pure number.
+    Number, "number", [0, 0, 0, 0], "", "0.8";
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,93 @@
+//! What to mind about a result: short codes, each a doubt about the model's range.
+
+/// A set of codes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Validity(u8);
+
+/// Codes, their bits and their meaning.
+pub const CODES: [(&str, Validity, &str); 7] = [
+    (
+        "no-rebound-window",
+        Validity::NO_REBOUND_WINDOW,
+        "adhesion and damping together leave no speed at which this sphere rebounds",
+    ),
+    (
+        "damping-exhausted",
+        Validity::DAMPING_EXHAUSTED,
+        "the speed is above the window of rebound: damping alone takes all the energy, which ends the model's domain and is not adhesion",
+    ),
+    (
+        "large-contact",
+        Validity::LARGE_CONTACT,
+        "the greatest contact radius exceeds a third of the sphere's radius (the paper's own limit, 25 m/s for its steel, is 0.34): no longer small, as the contact models assume",
+    ),
+    (
+        "losses-overlap",
+        Validity::LOSSES_OVERLAP,
+        "damping fitted on elastic contacts is added to a plastic loss above yield: part of the energy may be counted twice",
+    ),
+    (
+        "roughness-extrapolated",
+        Validity::ROUGHNESS_EXTRAPOLATED,
+        "C_R comes from a roughness above 0.5 nm, the curve's one calibration point",
+    ),
+    (
+        "repelling-adhesion",
+        Validity::REPELLING_ADHESION,
+        "C_A v > 1: reversible, damped adhesion would repel on approach",
+    ),
+    ("pulling-hertz", Validity::PULLING_HERTZ, "C_H v > 1: the damped Hertz force would pull on separation"),
+];
+
+impl Validity {
+    /// Nothing to mind.
+    pub const NONE: Self = Self(0);
+    /// `no-rebound-window`
+    pub const NO_REBOUND_WINDOW: Self = Self(1);
+    /// `damping-exhausted`
+    pub const DAMPING_EXHAUSTED: Self = Self(2);
+    /// `large-contact`
+    pub const LARGE_CONTACT: Self = Self(4);
+    /// `losses-overlap`
+    pub const LOSSES_OVERLAP: Self = Self(8);
+    /// `roughness-extrapolated`
+    pub const ROUGHNESS_EXTRAPOLATED: Self = Self(16);
+    /// `repelling-adhesion` (resolved law)
+    pub const REPELLING_ADHESION: Self = Self(32);
+    /// `pulling-hertz` (resolved law)
+    pub const PULLING_HERTZ: Self = Self(64);
+
+    /// Both sets.
+    #[must_use]
+    #[inline(always)]
+    pub const fn with(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+
+    /// This set if `condition`, else nothing.
+    #[must_use]
+    #[inline(always)]
+    pub const fn when(self, condition: bool) -> Self {
+        if condition { self } else { Self::NONE }
+    }
+
+    /// Is every code of `other` set?
+    pub const fn contains(self, other: Self) -> bool {
+        self.0 & other.0 == other.0
+    }
+
+    /// Nothing to mind?
+    pub const fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+
+    /// The bits, as the C interface hands them out.
+    pub const fn bits(self) -> u8 {
+        self.0
+    }
+
+    /// The codes, in a fixed order.
+    pub fn codes(self) -> impl Iterator<Item = &'static str> {
+        CODES.iter().filter(move |(_, v, _)| self.contains(*v)).map(|(code, _, _)| *code)
+    }
+}

@@ -1,0 +1,320 @@
+//! A wall law, compiled: pair × normal law × tangential law × roughness. An impact in, an outcome out.
+
+use crate::impact::{Energy, Fate, Impact, ImpactError, Outcome, Vec3};
+use crate::normal::empirical::Curve;
+use crate::normal::{Ledger, Losses, Size};
+use crate::pair::Pair;
+use crate::resolved::Resolved;
+use crate::tangential::{Contact, Tangential, friction_impulse};
+use crate::validity::Validity;
+
+mod checks;
+mod figures;
+mod vector;
+
+use checks::ContactLimit;
+pub(crate) use checks::column_ok;
+pub use figures::Window;
+use vector::{add_scaled, cross, dot, norm};
+
+/// A normal law, compiled.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NormalLaw {
+    /// A list of losses.
+    Ledger(Ledger),
+    /// Restitution as a constant or by angle.
+    Table(Curve),
+    /// The resolved contact equation.
+    Resolved(Resolved),
+}
+
+/// What a normal law answers.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct NormalResponse {
+    pub e: f64,
+    pub losses: Losses,
+    /// Loss without a named mechanism.
+    pub other: f64,
+    /// Hertz impulse over (1 + e)v_n, by which the resolved law's friction is larger; 1 otherwise.
+    pub friction_share: f64,
+}
+
+impl NormalResponse {
+    #[inline(always)]
+    pub fn of_losses(losses: Losses) -> Self {
+        Self { e: losses.restitution(), losses, other: 0.0, friction_share: 1.0 }
+    }
+
+    #[inline(always)]
+    pub fn of_restitution(e: f64) -> Self {
+        Self { e, losses: Losses::default(), other: 1.0 - e * e, friction_share: 1.0 }
+    }
+}
+
+impl NormalLaw {
+    #[inline(always)]
+    pub(crate) fn respond(&self, v_n: f64, v_t: f64, size: &Size) -> NormalResponse {
+        match self {
+            Self::Ledger(ledger) => NormalResponse::of_losses(ledger.losses(v_n, size)),
+            Self::Table(curve) => NormalResponse::of_restitution(curve.at(v_n, v_t, 0.0, 1.0)),
+            Self::Resolved(resolved) => resolved.respond(v_n, size),
+        }
+    }
+}
+
+/// A wall law, compiled from a [`crate::spec::LawSpec`]. Pure: no state, no allocation per impact, no panics; usable from
+/// many threads.
+#[derive(Clone, Debug)]
+pub struct WallLaw {
+    pub(crate) normal: NormalLaw,
+    pub(crate) tangential: Tangential,
+    /// Density of the law's own sphere, kg/m³; a law that needs none and was given none holds 1000.
+    pub(crate) density: f64,
+    /// 1/r_s, 1/m.
+    pub(crate) surface_curvature: f64,
+    pub(crate) contact_limit: ContactLimit,
+    pub(crate) validity: Validity,
+    pub(crate) pair: Option<Pair>,
+    pub(crate) roughness: Option<f64>,
+    pub(crate) roughness_factor: f64,
+    pub(crate) spacing: f64,
+}
+
+impl WallLaw {
+    pub(crate) fn assemble(
+        normal: NormalLaw,
+        tangential: Tangential,
+        pair: Option<Pair>,
+        surface_curvature: f64,
+    ) -> Self {
+        let density = pair.as_ref().and_then(|p| p.density().ok()).unwrap_or(1000.0);
+        let contact_limit = ContactLimit::new(&normal, pair.as_ref(), density);
+        Self {
+            normal,
+            tangential,
+            density,
+            surface_curvature,
+            contact_limit,
+            validity: Validity::NONE,
+            pair,
+            roughness: None,
+            roughness_factor: 1.0,
+            spacing: crate::roughness::CALIBRATED_SPACING,
+        }
+    }
+
+    /// The materials' contact constants, if the law has materials.
+    pub fn pair(&self) -> Option<&Pair> {
+        self.pair.as_ref()
+    }
+
+    /// The normal law.
+    pub fn normal(&self) -> &NormalLaw {
+        &self.normal
+    }
+
+    /// The tangential law.
+    pub fn tangential(&self) -> &Tangential {
+        &self.tangential
+    }
+
+    /// Density of the law's own sphere, kg/m³, used when an impact names none.
+    pub fn density(&self) -> f64 {
+        self.density
+    }
+
+    #[inline(always)]
+    pub(crate) fn size(&self, diameter: f64, density: Option<f64>) -> Result<Size, ImpactError> {
+        // written so that NaN fails too
+        if !(diameter >= 1e-10 && diameter <= 10.0) {
+            return Err(ImpactError::Diameter);
+        }
+        let radius = 0.5 * diameter;
+        let mut size = Size::flat(radius);
+        if let Some(density) = density {
+            size.density_ratio = density / self.density;
+            if !(size.density_ratio >= 1e-3 && size.density_ratio <= 1e3) {
+                return Err(ImpactError::Density);
+            }
+        }
+        if self.surface_curvature != 0.0 {
+            size.kappa = 1.0 / self.surface_curvature.mul_add(radius, 1.0);
+            if !(size.kappa > 1e-3 && size.kappa < 1e3) {
+                return Err(ImpactError::Curvature);
+            }
+        }
+        Ok(size)
+    }
+
+    /// One impact.
+    ///
+    /// # Errors
+    /// A sphere that does not approach, a diameter or density out of range, numbers that are not finite: the caller's
+    /// sphere is then as it was.
+    ///
+    /// ```
+    /// use carom::{Impact, Fate, material::Library, spec::LawSpec};
+    /// let law: LawSpec = carom::spec::parse_law(r#"
+    ///     sphere = "stainless-steel"
+    ///     surface = "silicon"
+    ///     normal = "ea"
+    ///     friction = 0.2
+    ///     roughness_factor = 0.15
+    /// "#)?;
+    /// let wall = law.compile(&Library::builtin())?;
+    /// let out = wall.impact(&Impact::new(70e-6, [1.0, -1.0, 0.0], [0.0, 1.0, 0.0])).expect("it approaches");
+    /// assert_eq!(out.fate, Fate::Rebound);
+    /// assert!((out.velocity[1] - 0.9728).abs() < 1e-3);
+    /// # Ok::<(), carom::SpecError>(())
+    /// ```
+    #[inline]
+    pub fn impact(&self, impact: &Impact) -> Result<Outcome, ImpactError> {
+        #[cfg(target_arch = "x86_64")]
+        if std::arch::is_x86_feature_detected!("fma") {
+            // SAFETY: the processor has the features the function is compiled for, as was just asked.
+            return unsafe { impact_fma(self, impact) };
+        }
+        self.impact_body(impact)
+    }
+
+    #[inline(always)]
+    fn impact_body(&self, impact: &Impact) -> Result<Outcome, ImpactError> {
+        let normal = checks::unit(&impact.normal)?;
+        let size = self.size(impact.diameter, impact.density)?;
+        let u = impact.wall_velocity;
+        let relative = [impact.velocity[0] - u[0], impact.velocity[1] - u[1], impact.velocity[2] - u[2]];
+        let v_n = -dot(&relative, &normal);
+        checks::approach(v_n, &relative, &impact.spin)?;
+        let tangent = add_scaled(&relative, v_n, &normal);
+        let v_t = norm(&tangent);
+        let spin_speed2 = dot(&impact.spin, &impact.spin);
+        // twice the energy per mass
+        let rotational = 0.4 * (size.radius * size.radius) * spin_speed2;
+        let incident = v_n.mul_add(v_n, v_t.mul_add(v_t, rotational));
+        let response = self.normal.respond(v_n, v_t, &size);
+        let validity = self.judge(v_n, &size, &response);
+        let energy = normal_energy(&response, v_n * v_n / incident);
+        if response.e <= 0.0 {
+            return Ok(captured(u, energy, validity));
+        }
+        let out = self.slide(&Sliding { tangent, v_t, normal, v_n, spin: impact.spin, radius: size.radius }, &response);
+        let rebound_n = response.e * v_n;
+        let velocity = add_scaled(&out.tangent, rebound_n, &normal);
+        let kept = rebound_n.mul_add(rebound_n, dot(&out.tangent, &out.tangent))
+            + 0.4 * (size.radius * size.radius) * dot(&out.spin, &out.spin);
+        Ok(Outcome {
+            fate: Fate::Rebound,
+            velocity: [velocity[0] + u[0], velocity[1] + u[1], velocity[2] + u[2]],
+            spin: out.spin,
+            restitution: response.e,
+            impulse_ratio: out.ratio,
+            tangential_restitution: if v_t > 0.0 { dot(&out.tangent, &tangent) / (v_t * v_t) } else { f64::NAN },
+            contact: out.contact,
+            energy: Energy { friction: out.friction / incident, kept: kept / incident, ..energy },
+            validity,
+        })
+    }
+
+    #[inline(always)]
+    fn slide(&self, s: &Sliding, response: &NormalResponse) -> Slid {
+        let normal_impulse = (1.0 + response.e) * s.v_n;
+        match &self.tangential {
+            Tangential::Friction { friction, beta } => {
+                let lever = cross(&s.spin, &s.normal);
+                let slip = add_scaled(&s.tangent, -s.radius, &lever);
+                let speed = norm(&slip);
+                if speed == 0.0 {
+                    return Slid {
+                        tangent: s.tangent,
+                        spin: s.spin,
+                        ratio: 0.0,
+                        friction: 0.0,
+                        contact: Contact::None,
+                    };
+                }
+                let (p, slides) = friction_impulse(*friction * response.friction_share, *beta, speed, normal_impulse);
+                let direction = [slip[0] / speed, slip[1] / speed, slip[2] / speed];
+                Slid {
+                    tangent: add_scaled(&s.tangent, -p, &direction),
+                    spin: add_scaled(&s.spin, 2.5 * (p / s.radius), &cross(&s.normal, &direction)),
+                    ratio: p / normal_impulse,
+                    friction: p * 3.5f64.mul_add(-p, 2.0 * speed),
+                    contact: if slides { Contact::Sliding } else { Contact::Rolling },
+                }
+            }
+            Tangential::Restitution(curve) => {
+                let e_t = curve.at(s.v_n, s.v_t, -1.0, 1.0);
+                let tangent = [e_t * s.tangent[0], e_t * s.tangent[1], e_t * s.tangent[2]];
+                let out = e_t * s.v_t;
+                Slid {
+                    tangent,
+                    spin: s.spin,
+                    ratio: (s.v_t - out).abs() / normal_impulse,
+                    friction: s.v_t * s.v_t - out * out,
+                    contact: Contact::None,
+                }
+            }
+        }
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "fma")]
+fn impact_fma(law: &WallLaw, impact: &Impact) -> Result<Outcome, ImpactError> {
+    law.impact_body(impact)
+}
+
+struct Sliding {
+    tangent: Vec3,
+    v_t: f64,
+    normal: Vec3,
+    v_n: f64,
+    spin: Vec3,
+    radius: f64,
+}
+
+struct Slid {
+    tangent: Vec3,
+    spin: Vec3,
+    ratio: f64,
+    /// Twice the energy per mass lost to friction.
+    friction: f64,
+    contact: Contact,
+}
+
+/// The normal losses as fractions of the whole incident energy, `share` being the normal motion's. When they would take
+/// more than there is (capture), they are scaled down to what there was.
+#[inline(always)]
+pub(crate) fn normal_energy(response: &NormalResponse, share: f64) -> Energy {
+    let total = response.losses.total() + response.other;
+    let scale = if total > 1.0 { share / total } else { share };
+    let l = &response.losses;
+    let mut energy = Energy {
+        adhesion: l.adhesion * scale,
+        adhesion_damping: l.adhesion_damping * scale,
+        hertz_damping: l.hertz_damping * scale,
+        plastic: l.plastic * scale,
+        other: response.other * scale,
+        ..Energy::default()
+    };
+    if response.e <= 0.0 {
+        energy.captured =
+            1.0 - (energy.adhesion + energy.adhesion_damping + energy.hertz_damping + energy.plastic + energy.other);
+    }
+    energy
+}
+
+#[inline(always)]
+fn captured(wall_velocity: Vec3, energy: Energy, validity: Validity) -> Outcome {
+    Outcome {
+        fate: Fate::Capture,
+        velocity: wall_velocity,
+        spin: [0.0; 3],
+        restitution: 0.0,
+        impulse_ratio: f64::NAN,
+        tangential_restitution: f64::NAN,
+        contact: Contact::None,
+        energy,
+        validity,
+    }
+}
