@@ -3,7 +3,6 @@
 //! SI units throughout. [`flow`] says what the fluid does at a point, [`force`] what that does to a sphere,
 //! [`injection`] where spheres start, [`random`] where chance comes from.
 
-mod elementary;
 pub mod flow;
 pub mod force;
 pub mod injection;

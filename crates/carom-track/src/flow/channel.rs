@@ -70,13 +70,13 @@ impl Channel {
     }
 
     #[inline(always)]
-    fn from_wall(&self, y: f64) -> f64 {
+    fn wall_distance(&self, y: f64) -> f64 {
         y.min(self.height - y).max(0.0)
     }
 
     #[inline(always)]
     fn laminar(&self, y: f64) -> f64 {
-        let s = self.from_wall(y) / self.height;
+        let s = self.wall_distance(y) / self.height;
         6.0 * self.mean_speed * s * (1.0 - s)
     }
 
@@ -86,7 +86,7 @@ impl Channel {
         let u = match &self.shape {
             Shape::Plug => self.mean_speed,
             Shape::Laminar => self.laminar(x[1]),
-            Shape::Turbulent(wall) => wall.velocity(self.from_wall(x[1])),
+            Shape::Turbulent(wall) => wall.velocity(self.wall_distance(x[1])),
         };
         [u, 0.0, 0.0]
     }
@@ -103,7 +103,7 @@ impl Channel {
             }
             Shape::Turbulent(wall) => {
                 for (u, y) in u.iter_mut().zip(y) {
-                    *u = wall.velocity(self.from_wall(*y));
+                    *u = wall.velocity(self.wall_distance(*y));
                 }
             }
         }
@@ -112,7 +112,7 @@ impl Channel {
     /// Everything known at `x`.
     pub fn sample(&self, x: [f64; 3]) -> Local {
         let (low, high) = (x[1], self.height - x[1]);
-        let y = self.from_wall(x[1]);
+        let y = self.wall_distance(x[1]);
         // +1 while the lower wall is nearer
         let side = if low <= high { 1.0 } else { -1.0 };
         let slope = match &self.shape {

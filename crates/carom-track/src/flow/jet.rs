@@ -27,8 +27,9 @@
 //! # Ok::<(), carom_track::flow::FlowError>(())
 //! ```
 
+use super::tangent::{atan, tan};
 use super::{FlowError, Local};
-use crate::elementary::{atan, exp, ln, tan};
+use carom::math::{exp, ln};
 use std::f64::consts::PI;
 
 /// Slot jet between a nozzle plate and an impaction plate.

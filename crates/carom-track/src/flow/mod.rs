@@ -10,6 +10,7 @@ mod pipe;
 mod profile;
 mod stagnation;
 mod table;
+mod tangent;
 mod vtk;
 
 pub use channel::Channel;

@@ -19,7 +19,7 @@
 //! doi:10.1063/1.869966): k⁺ → 0.1 y⁺² and ε⁺ → 0.17 at the wall, greatest k⁺ near y⁺ = 20. Good to 10–20 %, which is
 //! no worse than a two-equation closure; use a table for better.
 
-use crate::elementary::{exp, ln};
+use carom::math::{exp, ln};
 
 /// Shape of the mean velocity across a channel or a pipe.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

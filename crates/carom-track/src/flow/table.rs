@@ -115,8 +115,7 @@ impl Axis {
     #[inline]
     fn place(&self, x: f64) -> Place {
         let n = self.at.len() - 1;
-        // written so that a NaN lands in the first cell
-        if n == 0 || !(x > self.at[0]) {
+        if n == 0 || x <= self.at[0] || x.is_nan() {
             return Place {
                 low: 0,
                 high: n.min(1),

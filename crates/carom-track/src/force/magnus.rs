@@ -16,16 +16,17 @@
 //! ```
 
 use super::{Sphere, reynolds};
-use crate::elementary::{exp, pow};
 use crate::flow::Fluid;
 use crate::vector::{cross, norm, scale};
+use carom::math::{exp, pow};
 
 /// Acceleration (m/s²) at the relative velocity u − v (m/s) and the relative rotation Ω = ½∇ × u − ω_p (rad/s).
 pub fn acceleration(fluid: &Fluid, sphere: &Sphere, relative: [f64; 3], rotation: [f64; 3]) -> [f64; 3] {
     let d = sphere.diameter;
     let re = reynolds(fluid, d, norm(relative));
     let re_r = super::rotational_drag::reynolds(fluid, d, norm(rotation));
-    if !(re > 0.0 && re_r > 0.0) {
+    // below this the force is lost against any other, and powers stay in their domain
+    if re.min(re_r) < 1e-100 {
         return [0.0; 3];
     }
     // (π/8) ρ_f d³ over the mass (π/6) ρ_p d³

@@ -12,7 +12,7 @@
 //! assert!((c - 1.166).abs() < 1e-3);
 //! ```
 
-use crate::elementary::exp;
+use carom::math::exp;
 
 /// Whose slip correction.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
