@@ -11,7 +11,6 @@ mod profile;
 mod stagnation;
 mod table;
 mod tangent;
-mod vtk;
 
 pub use channel::Channel;
 pub use fluid::Fluid;
