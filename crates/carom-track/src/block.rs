@@ -1,7 +1,7 @@
 //! A block of particle numbers, tracked to the end: its rows in order, and its part of the summary.
 
 use crate::case::Case;
-use crate::record::{End, Fate, ImpactRecord, Sink};
+use crate::record::{End, ImpactRecord, Sink};
 use crate::summary::Summary;
 use crate::tracker::Particle;
 use crate::vector::Vec3;
@@ -135,6 +135,7 @@ fn impact_row<'a>(i: &ImpactRecord, wall: &'a str) -> ImpactRow<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::record::Fate;
 
     #[test]
     fn header_and_row_have_as_many_columns() {

@@ -9,7 +9,6 @@ mod block;
 pub mod case;
 pub mod domain;
 pub mod dynamics;
-mod elementary;
 pub mod exact_sum;
 pub mod flow;
 pub mod force;

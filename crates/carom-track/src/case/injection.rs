@@ -1,7 +1,6 @@
 //! `[[injection]]`.
 
 use super::check::{placed, positive, unknown, word, wrong};
-use super::flow::SLIPS;
 use super::text::{InjectionText, PlaceText, PlacesText, Si, SizeText, SizesText, VelocityText};
 use crate::flow::Fluid;
 use crate::force::Slip;

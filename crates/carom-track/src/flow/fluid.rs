@@ -85,7 +85,7 @@ mod tests {
     fn air_at_24_degrees() {
         let air = Fluid::default();
         assert!((air.density - 1.188).abs() < 5e-4, "{air:?}");
-        assert!((air.viscosity - 1.833e-5).abs() < 5e-9, "{air:?}");
+        assert!((air.viscosity - 1.8325e-5).abs() < 5e-10, "{air:?}");
         // Hinds 1999, section 2.4: 0.066 µm at 20 °C and 1 atm
         let at20 = Fluid::air(293.15, 101_325.0).unwrap();
         assert!((at20.mean_free_path - 0.066e-6).abs() < 1e-9, "{at20:?}");

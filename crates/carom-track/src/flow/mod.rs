@@ -10,7 +10,7 @@ mod pipe;
 mod profile;
 mod stagnation;
 mod table;
-mod vtk;
+mod tangent;
 
 pub use channel::Channel;
 pub use fluid::Fluid;
@@ -176,11 +176,7 @@ impl FlowError {
     }
 
     pub(crate) fn positive(name: &'static str, value: f64) -> Result<(), Self> {
-        if value > 0.0 && value.is_finite() {
-            Ok(())
-        } else {
-            Err(Self::value(name, value, "positive and finite"))
-        }
+        if value > 0.0 && value.is_finite() { Ok(()) } else { Err(Self::value(name, value, "positive and finite")) }
     }
 
     pub(crate) fn finite(name: &'static str, value: f64) -> Result<(), Self> {

@@ -13,8 +13,8 @@
 
 use super::profile::{Section, Shape, WallTurbulence};
 use super::{FlowError, Fluid, Local, Profile};
-use crate::elementary::ln;
 use crate::vector::{Vec3, dot, norm, scale, sub, unit};
+use carom::math::ln;
 
 /// Fully developed flow in a round pipe.
 #[derive(Clone, Copy, Debug)]
@@ -52,7 +52,11 @@ impl Pipe {
         let nu = fluid.kinematic_viscosity();
         let reynolds = 2.0 * radius * mean_speed.abs() / nu;
         if profile == Profile::Turbulent && reynolds < 2000.0 {
-            return Err(FlowError::value("Reynolds number (mean speed, diameter)", reynolds, "above 2000 for a turbulent profile"));
+            return Err(FlowError::value(
+                "Reynolds number (mean speed, diameter)",
+                reynolds,
+                "above 2000 for a turbulent profile",
+            ));
         }
         let friction_velocity = match profile {
             Profile::Plug => 0.0,
@@ -80,7 +84,7 @@ impl Pipe {
     }
 
     #[inline(always)]
-    fn from_axis(&self, x: Vec3) -> Vec3 {
+    fn radial(&self, x: Vec3) -> Vec3 {
         let d = sub(x, self.point);
         sub(d, scale(self.axis, dot(d, self.axis)))
     }
@@ -98,12 +102,12 @@ impl Pipe {
     /// Velocity at `x`, m/s.
     #[inline]
     pub fn velocity(&self, x: [f64; 3]) -> [f64; 3] {
-        scale(self.axis, self.speed(norm(self.from_axis(x))))
+        scale(self.axis, self.speed(norm(self.radial(x))))
     }
 
     /// Everything known at `x`. On the axis itself the wall normal is zero.
     pub fn sample(&self, x: [f64; 3]) -> Local {
-        let radial = self.from_axis(x);
+        let radial = self.radial(x);
         let r = norm(radial);
         let y = (self.radius - r).max(0.0);
         let outward = unit(radial).unwrap_or([0.0; 3]);
@@ -157,7 +161,7 @@ mod tests {
             let pipe = Pipe::new(profile, [0.1, 0.2, 0.3], [2.0, 1.0, 2.0], 0.05, 3.0, &air_like()).unwrap();
             let x = [0.11, 0.22, 0.29];
             let local = pipe.sample(x);
-            assert!((local.wall_distance + norm(pipe.from_axis(x)) - 0.05).abs() < 1e-15);
+            assert!((local.wall_distance + norm(pipe.radial(x)) - 0.05).abs() < 1e-15);
             for j in 0..3 {
                 let (mut a, mut b) = (x, x);
                 a[j] += 1e-7;
@@ -165,12 +169,16 @@ mod tests {
                 let (a, b) = (pipe.velocity(a), pipe.velocity(b));
                 for i in 0..3 {
                     let fd = (a[i] - b[i]) / 2e-7;
-                    assert!((local.gradient[i][j] - fd).abs() < 1e-5 * 300.0, "{profile:?} {i}{j} {fd} {:?}", local.gradient);
+                    assert!(
+                        (local.gradient[i][j] - fd).abs() < 1e-5 * 300.0,
+                        "{profile:?} {i}{j} {fd} {:?}",
+                        local.gradient
+                    );
                 }
             }
             let trace: f64 = (0..3).map(|i| local.gradient[i][i]).sum();
             assert!(trace.abs() < 1e-10);
-            assert!(dot(local.wall_normal, pipe.from_axis(x)) < 0.0);
+            assert!(dot(local.wall_normal, pipe.radial(x)) < 0.0);
         }
     }
 

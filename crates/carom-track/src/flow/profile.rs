@@ -6,8 +6,9 @@
 //! U⁺ = (1/κ) ln[(1 + κy⁺) · 1.5(1+η)/(1+2η²)] + 7.8 [1 − e^{−y⁺/11} − (y⁺/11) e^{−y⁺/3}], κ = 0.4,
 //!
 //! with y⁺ = y u_τ/ν, U⁺ = U/u_τ, δ the half height or the radius and η = 1 − y/δ the distance from the axis.
-//! The friction velocity comes from a friction law; the profile is then multiplied by one factor (within a few percent
-//! of 1, see [`WallTurbulence::scale`]) so that its mean is exactly the given one. The mean of U⁺ is a closed form.
+//! The friction velocity comes from a friction law; the profile is then multiplied by one factor so that its mean is
+//! exactly the given one: 0.92 to 1.00 in a channel at 4e3 < Re < 4e5, 0.97 to 0.99 in a pipe, by which the slope at the
+//! wall falls short of u_τ²/ν. The mean of U⁺ is a closed form.
 //!
 //! # Turbulence
 //! k⁺ = 4.78 e^{−2y/δ} (1 − e^{−y⁺/7})²  and  ε⁺ = e^{−y/δ} / (κ (y⁺⁴ + 15⁴)^{1/4})
@@ -18,7 +19,7 @@
 //! doi:10.1063/1.869966): k⁺ → 0.1 y⁺² and ε⁺ → 0.17 at the wall, greatest k⁺ near y⁺ = 20. Good to 10–20 %, which is
 //! no worse than a two-equation closure; use a table for better.
 
-use crate::elementary::{exp, ln};
+use carom::math::{exp, ln};
 
 /// Shape of the mean velocity across a channel or a pipe.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

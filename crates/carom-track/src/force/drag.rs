@@ -18,8 +18,8 @@
 //! ```
 
 use super::Sphere;
-use crate::elementary::{exp, ln};
 use crate::flow::Fluid;
+use carom::math::{exp, ln};
 
 /// Whose drag law.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

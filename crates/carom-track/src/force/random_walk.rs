@@ -32,9 +32,9 @@
 //! assert!((eddy.life - 0.045).abs() < 1e-15);
 //! ```
 
-use crate::elementary::{exp, ln, pow};
 use crate::flow::Local;
 use crate::vector::{add, cross, dot, frame, norm, scale, sub};
+use carom::math::{exp, ln, pow};
 
 /// What is done about turbulence near walls.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -119,7 +119,7 @@ impl RandomWalk {
     ///
     /// Evaluate it where the sphere is, not where it met the eddy: so the fluctuation fades as the sphere nears a wall.
     pub fn fluctuation(&self, eddy: &Eddy, local: &Local, nu: f64) -> [f64; 3] {
-        if !(local.k > 0.0) {
+        if local.k <= 0.0 {
             return [0.0; 3];
         }
         let sigma = (local.k * (2.0 / 3.0)).sqrt();
@@ -161,7 +161,7 @@ fn wang_james(y_plus: f64) -> [f64; 3] {
 }
 
 fn kallio_reeks_rms(y_plus: f64) -> f64 {
-    0.005 * y_plus * y_plus / (1.0 + 0.002_923 * pow(y_plus, 2.128))
+    0.005 * y_plus * y_plus / (1.0 + 0.002_923 * pow(y_plus.max(1e-9), 2.128))
 }
 
 fn kallio_reeks_time(y_plus: f64) -> f64 {
@@ -217,9 +217,9 @@ mod tests {
             walk.fluctuation(&eddy, &self::near_wall(y_plus), NU)
         };
         let sigma = (0.08f64 / 3.0).sqrt();
-        assert_eq!(normal(NearWall::Isotropic, 1.0), [0.0, sigma, 0.0]);
+        assert!((normal(NearWall::Isotropic, 1.0)[1] / sigma - 1.0).abs() < 1e-15);
         assert_eq!(normal(NearWall::WangJames, 0.0), [0.0; 3]);
-        assert_eq!(normal(NearWall::WangJames, 100.0), [0.0, sigma, 0.0]);
+        assert_eq!(normal(NearWall::WangJames, 100.0), normal(NearWall::Isotropic, 1.0));
         // v'⁺ at y⁺ = 10 by hand: 0.5/(1 + 0.002923 · 10^2.128)
         let want = 0.1 * 0.5 / (1.0 + 0.002_923 * 10.0f64.powf(2.128));
         assert!((normal(NearWall::KallioReeks, 10.0)[1] / want - 1.0).abs() < 1e-12);

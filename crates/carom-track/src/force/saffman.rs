@@ -17,9 +17,9 @@
 //! ```
 
 use super::{Sphere, reynolds};
-use crate::elementary::exp;
 use crate::flow::Fluid;
 use crate::vector::{cross, norm, scale};
+use carom::math::exp;
 
 /// Acceleration (m/s²) at the relative velocity u − v (m/s) in fluid of a vorticity ∇ × u (1/s).
 pub fn acceleration(fluid: &Fluid, sphere: &Sphere, relative: [f64; 3], vorticity: [f64; 3]) -> [f64; 3] {

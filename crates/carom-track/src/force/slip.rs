@@ -12,7 +12,7 @@
 //! assert!((c - 1.166).abs() < 1e-3);
 //! ```
 
-use crate::elementary::exp;
+use carom::math::exp;
 
 /// Whose slip correction.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -46,12 +46,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_handbook_table() {
-        // Hinds 1999, Aerosol Technology, 2nd ed., table A11 (λ = 0.066 µm); both fits stay within their 2 %
+    fn the_handbook_values() {
+        // Hinds 1999, Aerosol Technology, 2nd ed., Eq. 3.20 at λ = 0.066 µm (oil drops, itself good to 2.1 %)
         for (d, want) in [(0.01, 22.98), (0.1, 2.928), (1.0, 1.155), (10.0, 1.015)] {
             for slip in [Slip::Davies, Slip::AllenRaabe] {
                 let got = slip.factor(d * 1e-6, 0.066e-6);
-                assert!((got / want - 1.0).abs() < 0.025, "{slip:?} {d} {got} {want}");
+                assert!((got / want - 1.0).abs() < 0.03, "{slip:?} {d} {got} {want}");
             }
         }
     }

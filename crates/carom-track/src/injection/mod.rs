@@ -175,7 +175,11 @@ impl Injection {
             Amount::MassFlow { rate, parcels } => {
                 positive("mass flow", rate)?;
                 if stop <= start {
-                    return Err(InjectionError::value("stop time", stop, "after the start: a mass flow needs a time to flow"));
+                    return Err(InjectionError::value(
+                        "stop time",
+                        stop,
+                        "after the start: a mass flow needs a time to flow",
+                    ));
                 }
                 (parcels, Some(rate * (stop - start)))
             }
@@ -303,8 +307,7 @@ mod tests {
 
     #[test]
     fn starts_fill_the_window_in_order() {
-        let injection =
-            make(Plan { window: Window { start: 1.0, stop: 3.0 }, amount: Amount::Count(100), ..plan() });
+        let injection = make(Plan { window: Window { start: 1.0, stop: 3.0 }, amount: Amount::Count(100), ..plan() });
         for i in 0..100 {
             let t = injection.particle(i, |x| x).time;
             assert!(t >= 1.0 + 0.02 * i as f64 && t < 1.0 + 0.02 * (i + 1) as f64);
@@ -344,7 +347,10 @@ mod tests {
         fails(Plan { amount: Amount::MassFlow { rate: 1.0, parcels: 1 }, ..plan() }, "needs a time to flow");
         fails(Plan { window: Window { start: 1.0, stop: 0.5 }, ..plan() }, "stop time is 0.5");
         fails(Plan { velocity: Start::Velocity([f64::NAN; 3]), ..plan() }, "start velocity is NaN");
-        fails(Plan { sizes: Sizes::Lognormal { median: 1e-5, gsd: 0.5, by: By::Number }, ..plan() }, "standard deviation is 0.5");
+        fails(
+            Plan { sizes: Sizes::Lognormal { median: 1e-5, gsd: 0.5, by: By::Number }, ..plan() },
+            "standard deviation is 0.5",
+        );
         let source = Source::Disc { centre: [0.0; 3], normal: [0.0; 3], radius: 1.0 };
         fails(Plan { source, ..plan() }, "disc normal");
     }

@@ -9,8 +9,8 @@
 //! Number and mass are converted by d³. Draws invert the cumulative distribution: one uniform a draw.
 
 use super::{InjectionError, finite, positive};
-use crate::elementary::{exp, ln, pow};
 use crate::random::normal_quantile;
+use carom::math::{exp, ln, pow};
 
 /// What a distribution counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,9 +61,18 @@ pub enum Sizes {
 #[derive(Clone, Debug)]
 pub(super) enum Sampler {
     Mono(f64),
-    Lognormal { ln_median: f64, ln_gsd: f64 },
+    Lognormal {
+        ln_median: f64,
+        ln_gsd: f64,
+    },
     /// d = d̄ t^{1/n}, t exponential between two bounds: e^{−t} = high − u (high − low).
-    RosinRammler { mean: f64, per_spread: f64, high: f64, range: f64 },
+    RosinRammler {
+        mean: f64,
+        per_spread: f64,
+        high: f64,
+        range: f64,
+        bounds: [f64; 2],
+    },
     /// Cumulative shares of ln d.
     Curve(Vec<(f64, f64)>),
     Steps(Vec<(f64, f64)>),
@@ -86,7 +95,10 @@ impl Sampler {
         match self {
             Self::Mono(d) => *d,
             Self::Lognormal { ln_median, ln_gsd } => exp(ln_median + ln_gsd * normal_quantile(u)),
-            Self::RosinRammler { mean, per_spread, high, range } => mean * pow(-ln(high - u * range), *per_spread),
+            Self::RosinRammler { mean, per_spread, high, range, bounds: [min, max] } => {
+                let t = (-ln(high - u * range)).max(1e-300);
+                (mean * pow(t, *per_spread)).clamp(*min, *max)
+            }
             Self::Curve(points) => {
                 let i = points.partition_point(|(share, _)| *share < u).clamp(1, points.len() - 1);
                 let ((a, x), (b, y)) = (points[i - 1], points[i]);
@@ -127,18 +139,22 @@ fn rosin_rammler(mean: f64, spread: f64, [min, max]: [f64; 2], power: f64) -> Re
         let (high, low) = (exp(-t(min)), exp(-t(max)));
         let range = high - low;
         if range <= 0.0 {
-            return Err(InjectionError::value("least diameter", min, "such that some of the distribution lies above it"));
+            return Err(InjectionError::value(
+                "least diameter",
+                min,
+                "such that some of the distribution lies above it",
+            ));
         }
-        return Ok(Sampler::RosinRammler { mean, per_spread: 1.0 / spread, high, range });
+        return Ok(Sampler::RosinRammler { mean, per_spread: 1.0 / spread, high, range, bounds: [min, max] });
     }
     // ∫ e^{−t} d^power dt with t = (d/d̄)^n, in s = ln d: the density of s is n t e^{−t} d^power
     const CELLS: usize = 8192;
     let (first, h) = (ln(min), ln(max / min) / CELLS as f64);
-    // relative to the value at d̄ or the nearest bound, so that nothing overflows
+    // d^power relative to the least diameter's, so that nothing overflows
     let density = |s: f64| {
         let x = s - ln(mean);
-        let t = exp(spread * x);
-        exp(spread * x - t + power * (x - ln(min / mean)))
+        let exponent = spread * x - exp(spread * x) + power * (x - ln(min / mean));
+        if exponent < -700.0 { 0.0 } else { exp(exponent) }
     };
     let mut points = vec![(0.0, first)];
     let mut sum = 0.0;

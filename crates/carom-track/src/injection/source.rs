@@ -40,9 +40,18 @@ pub enum Source {
 #[derive(Clone, Debug)]
 pub(super) enum Place {
     Point(Vec3),
-    Box { low: Vec3, extent: Vec3 },
-    Disc { centre: Vec3, across: [Vec3; 2] },
-    Patch { corner: Vec3, sides: [Vec3; 2] },
+    Box {
+        low: Vec3,
+        extent: Vec3,
+    },
+    Disc {
+        centre: Vec3,
+        across: [Vec3; 2],
+    },
+    Patch {
+        corner: Vec3,
+        sides: [Vec3; 2],
+    },
     /// Cumulative area, rising to 1, and a triangle as a corner and two sides.
     Triangles(Vec<(f64, Vec3, [Vec3; 2])>),
 }
@@ -56,15 +65,19 @@ impl Place {
                 finite3("upper corner of the box", *high)?;
                 let extent = sub(*high, *low);
                 match extent.iter().find(|e| **e < 0.0) {
-                    Some(e) => Err(InjectionError::value("extent of the box", *e, "zero or positive: lower corner first")),
+                    Some(e) => {
+                        Err(InjectionError::value("extent of the box", *e, "zero or positive: lower corner first"))
+                    }
                     None => Ok(Self::Box { low: *low, extent }),
                 }
             }
             Source::Disc { centre, normal, radius } => {
                 finite3("disc centre", *centre)?;
                 positive("disc radius", *radius)?;
-                let n = unit(*normal)
-                    .ok_or(InjectionError::Shape { name: "disc normal", what: "must be a finite vector that is not zero" })?;
+                let n = unit(*normal).ok_or(InjectionError::Shape {
+                    name: "disc normal",
+                    what: "must be a finite vector that is not zero",
+                })?;
                 let (t, b) = frame(n);
                 Ok(Self::Disc { centre: *centre, across: [scale(t, *radius), scale(b, *radius)] })
             }
@@ -73,7 +86,10 @@ impl Place {
                 if area(sides) > 0.0 && area(sides).is_finite() {
                     Ok(Self::Patch { corner: *corner, sides: *sides })
                 } else {
-                    Err(InjectionError::Shape { name: "patch", what: "has no area: give two sides that are not parallel" })
+                    Err(InjectionError::Shape {
+                        name: "patch",
+                        what: "has no area: give two sides that are not parallel",
+                    })
                 }
             }
             Source::Triangles(triangles) => surface(triangles),
