@@ -4,7 +4,7 @@ use super::check::{placed, positive, unknown, word, wrong};
 use super::text::{InjectionText, PlaceText, PlacesText, Si, SizeText, SizesText, VelocityText};
 use crate::flow::Fluid;
 use crate::force::Slip;
-use crate::injection::{Amount, By, Diameter, Injection, Plan, Sizes, Source, Start, Window, geometric_diameter};
+use crate::injection::{Amount, By, Diameter, Injection, InjectionError, Plan, Sizes, Source, Start, Window, geometric_diameter};
 use carom::SpecError;
 use carom::material::{Library, MaterialRef};
 use carom::spec::At;
@@ -56,8 +56,34 @@ pub(super) fn read(at: &At<InjectionText>, index: usize, seed: u64, fluid: &Flui
     if let Some(start) = text.start.as_ref().filter(|s| s.value.0 < 0.0) {
         return Err(wrong(start, format!("start is {} s", start.value.0)).help("a run begins at 0 s"));
     }
-    let injection = Injection::new(seed, number, plan, fluid).map_err(|e| placed(at, format!("{name}: {e}")))?;
+    let injection = Injection::new(seed, number, plan, fluid).map_err(|e| blame(at, &e).at(at.span.clone()))?;
     Ok(Injected { name, material: text.material.as_ref().map(|m| m.value.clone()), injection, largest, place: text.position.span.clone() })
+}
+
+/// The key that an injection's error is about.
+fn blame(at: &At<InjectionText>, error: &InjectionError) -> SpecError {
+    let (InjectionError::Value { name, .. } | InjectionError::Shape { name, .. }) = error else { return placed(at, error) };
+    let text = &at.value;
+    let about = |words: &[&str]| words.iter().any(|w| name.contains(w));
+    let span = if about(&["start time"]) {
+        text.start.as_ref().and_then(|a| a.span.clone())
+    } else if about(&["stop time"]) {
+        text.stop.as_ref().or(text.start.as_ref()).and_then(|a| a.span.clone())
+    } else if about(&["mass", "number of particles"]) {
+        let amount = [text.count.as_ref().map(|a| &a.span), text.mass.as_ref().map(|a| &a.span), text.mass_flow.as_ref().map(|a| &a.span)];
+        amount.into_iter().flatten().next().cloned().flatten()
+    } else if about(&["point", "corner", "box", "disc", "patch", "surface"]) {
+        text.position.span.clone()
+    } else if about(&["velocity"]) {
+        text.velocity.span.clone()
+    } else if about(&["spin"]) {
+        text.spin.as_ref().and_then(|a| a.span.clone())
+    } else if about(&["density"]) {
+        text.density.as_ref().and_then(|a| a.span.clone())
+    } else {
+        text.diameter.span.clone()
+    };
+    SpecError::new(error.to_string()).at(span)
 }
 
 fn density(at: &At<InjectionText>, library: &Library) -> Result<f64, SpecError> {

@@ -72,7 +72,7 @@ fn refused(from: &str, to: &str, words: &[&str]) {
     for word in words {
         assert!(shown.contains(word), "'{word}' not in: {shown}");
     }
-    let line = 1 + text[..text.find(to).unwrap()].matches('\n').count();
+    let line = 1 + GOOD[..GOOD.find(from).unwrap()].matches('\n').count();
     let lines = to.trim_end().matches('\n').count();
     let at = error.line_column(&text).unwrap_or_else(|| panic!("no place: {shown}")).0;
     assert!((line..=line + lines).contains(&at), "line {at}, not {line}: {shown}");
