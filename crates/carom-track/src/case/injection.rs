@@ -1,6 +1,6 @@
 //! `[[injection]]`.
 
-use super::check::{placed, positive, unknown, word, wrong};
+use super::check::{positive, unknown, word, wrong};
 use super::text::{InjectionText, PlaceText, PlacesText, Si, SizeText, SizesText, VelocityText};
 use crate::flow::Fluid;
 use crate::force::Slip;
@@ -62,7 +62,7 @@ pub(super) fn read(at: &At<InjectionText>, index: usize, seed: u64, fluid: &Flui
 
 /// The key that an injection's error is about.
 fn blame(at: &At<InjectionText>, error: &InjectionError) -> SpecError {
-    let (InjectionError::Value { name, .. } | InjectionError::Shape { name, .. }) = error else { return placed(at, error) };
+    let (InjectionError::Value { name, .. } | InjectionError::Shape { name, .. }) = error;
     let text = &at.value;
     let about = |words: &[&str]| words.iter().any(|w| name.contains(w));
     let span = if about(&["start time"]) {
