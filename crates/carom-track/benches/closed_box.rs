@@ -6,7 +6,7 @@ use carom_track::domain::{Analytic, ContactAt, Wall};
 use carom_track::dynamics::Dynamics;
 use carom_track::flow::{Flow, Fluid};
 use carom_track::force::{Drag, Forces};
-use carom_track::geometry::Shape;
+use carom_track::geometry::{Room, Shape};
 use carom_track::random::{Purpose, Stream};
 use carom_track::record::{End, ImpactRecord, Sink};
 use carom_track::tracker::{Behavior, Particle, SettleHeight, Settings, Tracker};
@@ -18,6 +18,7 @@ const PARTICLES: u64 = 4096;
 struct Count {
     impacts: u64,
     ends: u64,
+    steps: u64,
 }
 
 impl Sink for Count {
@@ -28,8 +29,9 @@ impl Sink for Count {
         self.impacts += 1;
     }
     fn point(&mut self, _: u64, _: f64, _: [f64; 3], _: [f64; 3], _: [f64; 3]) {}
-    fn end(&mut self, _: &End) {
+    fn end(&mut self, end: &End) {
         self.ends += 1;
+        self.steps += end.steps;
     }
 }
 
@@ -51,7 +53,7 @@ fn particle(number: u64) -> Particle {
 }
 
 fn closed_box(c: &mut Criterion) {
-    let room = Shape::room([0.0; 3], [0.02; 3]);
+    let room = Shape::Room(Room { min: [0.0; 3], max: [0.02; 3] });
     let wall = Wall { name: "box".into(), shape: room, contact_at: ContactAt::Surface, velocity: [0.0; 3] };
     let domain = Analytic::new(Flow::Still, vec![wall]);
     let law = "normal = \"constant\"\nrestitution = 0.95\ntangential = \"constant\"\ntangential_restitution = 0.95\n";
@@ -59,12 +61,13 @@ fn closed_box(c: &mut Criterion) {
     let behaviors = [Behavior::Law(vec![law])];
     let forces = Forces { drag: Drag::SchillerNaumann, ..Forces::default() };
     let dynamics = Dynamics { fluid: Fluid::default(), forces, random_walk: None, brownian: false };
-    let settings = Settings { tolerance: 1e-6, until: 0.05, settle_height: SettleHeight::DEFAULT, max_steps: 1_000_000, seed: 1 };
+    let settings = Settings { tolerance: 1e-5, until: 0.05, settle_height: SettleHeight::DEFAULT, max_steps: 1_000_000, seed: 1 };
     let tracker = Tracker { domain: &domain, dynamics: &dynamics, behaviors: &behaviors, settings };
     let particles: Vec<Particle> = (0..PARTICLES).map(particle).collect();
     let mut count = Count::default();
     tracker.run(&mut particles.iter().copied(), &mut count);
-    println!("{:.2} hits per particle", count.impacts as f64 / count.ends as f64);
+    let each = |n: u64| n as f64 / count.ends as f64;
+    println!("{:.2} hits and {:.2} steps per particle", each(count.impacts), each(count.steps));
     let mut group = c.benchmark_group("closed box, 50 ms");
     group.throughput(Throughput::Elements(PARTICLES));
     group.bench_function("widest instructions", |b| {

@@ -51,7 +51,7 @@ pub struct Case {
 
 /// Trajectories recorded unless the case says otherwise: as many lines as a plot bears.
 const TRAJECTORIES: u64 = 100;
-const TOLERANCE: f64 = 1e-6;
+const TOLERANCE: f64 = 1e-5;
 const MAX_STEPS: u64 = 10_000_000;
 
 impl Case {

@@ -1,7 +1,7 @@
 //! What the tracker asks of the space it tracks in: what the fluid is like, and where a path next meets a wall.
 
 use crate::flow::{Flow, Local};
-use crate::geometry::{Meeting, Path, Plane, Shape};
+use crate::geometry::{Meeting, Path, Plane, Room, Shape};
 use crate::integrate::{Lanes, Lanes3};
 use crate::vector::{Vec3, dot};
 
@@ -12,6 +12,11 @@ pub trait Domain: Sync {
 
     /// The fluid's velocity at `W` points, m/s.
     fn velocities<const W: usize>(&self, x: &Lanes3<W>) -> Lanes3<W>;
+
+    /// Whether the fluid moves alike everywhere.
+    fn is_uniform(&self) -> bool {
+        false
+    }
 
     /// Where the centre of a sphere of that radius, on that path, first touches a wall.
     fn next_wall(&self, path: &Path, radius: f64) -> Option<Hit>;
@@ -75,31 +80,39 @@ impl Wall {
 pub struct Analytic {
     flow: Flow,
     walls: Vec<Wall>,
-    /// Every plane of the walls, and whether a radius counts: for the quick test.
+    /// Planes and rooms of the walls, each with whether a radius counts: for the quick test.
     planes: Vec<(Plane, f64)>,
-    only_planes: bool,
+    rooms: Vec<(Room, f64)>,
+    only_flat: bool,
+}
+
+/// Whether a path surely misses a flat wall: it starts clear of it and its lowest control point is, or it touches and
+/// every control point leads away.
+#[inline(always)]
+fn misses(gap: f64, lowest: f64, margin: f64) -> bool {
+    (lowest > 0.0) | ((gap > margin) & (gap + lowest > margin))
 }
 
 /// The distance that counts as touching: far below anything measured, above the rounding of positions.
 #[inline(always)]
 fn slack(x: Vec3, radius: f64) -> f64 {
-    1e-15f64.mul_add(x[0].abs().max(x[1].abs()).max(x[2].abs()), 1e-9 * radius)
+    1e-15 * x[0].abs().max(x[1].abs()).max(x[2].abs()) + 1e-9 * radius
 }
 
 impl Analytic {
     /// A flow and its walls.
     pub fn new(flow: Flow, walls: Vec<Wall>) -> Self {
-        let mut planes = Vec::new();
-        let mut only_planes = true;
+        let (mut planes, mut rooms) = (Vec::new(), Vec::new());
+        let mut only_flat = true;
         for wall in &walls {
             let share = wall.clearance(1.0);
             match &wall.shape {
                 Shape::Plane(p) => planes.push((*p, share)),
-                Shape::Room(faces) => planes.extend(faces.iter().map(|f| (*f, share))),
-                Shape::Cylinder(_) => only_planes = false,
+                Shape::Room(r) => rooms.push((*r, share)),
+                Shape::Cylinder(_) => only_flat = false,
             }
         }
-        Self { flow, walls, planes, only_planes }
+        Self { flow, walls, planes, rooms, only_flat }
     }
 
     /// The walls, in the order of their indices.
@@ -118,6 +131,10 @@ impl Domain for Analytic {
         self.flow.velocities(x)
     }
 
+    fn is_uniform(&self) -> bool {
+        matches!(self.flow, Flow::Still | Flow::Uniform { .. })
+    }
+
     fn next_wall(&self, path: &Path, radius: f64) -> Option<Hit> {
         let slack = slack(path.start, radius);
         let mut first: Option<Hit> = None;
@@ -132,7 +149,7 @@ impl Domain for Analytic {
 
     #[inline(always)]
     fn clear<const W: usize>(&self, start: &Lanes3<W>, path: &[Lanes3<W>; 4], radius: &Lanes<W>) -> [bool; W] {
-        let mut clear = [self.only_planes; W];
+        let mut clear = [self.only_flat; W];
         let mut margin = [0.0; W];
         for l in 0..W {
             margin[l] = 2.0 * slack([start[0][l], start[1][l], start[2][l]], radius[l]);
@@ -141,13 +158,21 @@ impl Domain for Analytic {
             let n = plane.normal;
             let level = dot(n, plane.point);
             for l in 0..W {
-                let along = |p: &Lanes3<W>| n[0].mul_add(p[0][l], n[1].mul_add(p[1][l], n[2] * p[2][l]));
+                let along = |p: &Lanes3<W>| n[0] * p[0][l] + n[1] * p[1][l] + n[2] * p[2][l];
                 let lowest = along(&path[0]).min(along(&path[1])).min(along(&path[2]).min(along(&path[3])));
-                let gap = along(start) - level - share * radius[l];
-                // a sphere that touches is clear if every control point leads away
-                let away = lowest > 0.0;
-                let above = gap > margin[l] && gap + lowest > margin[l];
-                clear[l] &= away | above;
+                clear[l] &= misses(along(start) - level - share * radius[l], lowest, margin[l]);
+            }
+        }
+        for (room, share) in &self.rooms {
+            for c in 0..3 {
+                for l in 0..W {
+                    let [p, q, r, s] = [path[0][c][l], path[1][c][l], path[2][c][l], path[3][c][l]];
+                    let lowest = p.min(q).min(r.min(s));
+                    let highest = p.max(q).max(r.max(s));
+                    let reach = share * radius[l];
+                    clear[l] &= misses(start[c][l] - room.min[c] - reach, lowest, margin[l])
+                        & misses(room.max[c] - start[c][l] - reach, -highest, margin[l]);
+                }
             }
         }
         clear

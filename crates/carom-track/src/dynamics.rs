@@ -61,9 +61,9 @@ impl<const W: usize> Bodies<W> {
             radius: [self.radius[l]],
             drag_rate: [self.drag_rate[l]],
             reynolds: [self.reynolds[l]],
-            weight: self.weight.map(|c| [c[l]]),
+            weight: [[self.weight[0][l]], [self.weight[1][l]], [self.weight[2][l]]],
             eddy: [self.eddy[l]],
-            kick: self.kick.map(|c| [c[l]]),
+            kick: [[self.kick[0][l]], [self.kick[1][l]], [self.kick[2][l]]],
         }
     }
 }
@@ -78,6 +78,11 @@ impl Dynamics {
     /// Whether spin changes in flight.
     pub fn spins(&self) -> bool {
         self.forces.rotational_drag
+    }
+
+    /// Whether the forces depend on where a sphere is.
+    pub fn need_place<D: Domain>(&self, domain: &D) -> bool {
+        !(self.is_plain() && (self.forces.drag == Drag::None || domain.is_uniform()))
     }
 
     /// τ_p of Stokes drag with slip, s; infinite without drag.
@@ -136,18 +141,14 @@ impl Dynamics {
             return;
         }
         let u = domain.velocities(&m.x);
-        let mut slip = [[0.0; W]; 3];
-        for c in 0..3 {
-            for l in 0..W {
-                slip[c][l] = u[c][l] - m.v[c][l];
-            }
-        }
+        let slip = [difference(u[0], m.v[0]), difference(u[1], m.v[1]), difference(u[2], m.v[2])];
         let mut rate = bodies.drag_rate;
         if self.forces.drag != Drag::Stokes {
+            let per_speed = bodies.reynolds;
             let mut reynolds = [0.0; W];
             for l in 0..W {
-                let s2 = slip[0][l].mul_add(slip[0][l], slip[1][l].mul_add(slip[1][l], slip[2][l] * slip[2][l]));
-                reynolds[l] = bodies.reynolds[l] * s2.sqrt();
+                let (x, y, z) = (slip[0][l], slip[1][l], slip[2][l]);
+                reynolds[l] = per_speed[l] * x.mul_add(x, y.mul_add(y, z * z)).sqrt();
             }
             let factors = self.forces.drag.factors(&reynolds);
             for l in 0..W {
@@ -155,9 +156,11 @@ impl Dynamics {
             }
         }
         for c in 0..3 {
+            let mut a = bodies.weight[c];
             for l in 0..W {
-                out.a[c][l] = rate[l].mul_add(slip[c][l], out.a[c][l]);
+                a[l] = rate[l].mul_add(slip[c][l], a[l]);
             }
+            out.a[c] = a;
         }
     }
 
@@ -170,4 +173,13 @@ impl Dynamics {
         }
         self.forces.rates(&self.fluid, &bodies.sphere[l], &local, at(&m.v), at(&m.spin))
     }
+}
+
+#[inline(always)]
+fn difference<const W: usize>(a: Lanes<W>, b: Lanes<W>) -> Lanes<W> {
+    let mut out = [0.0; W];
+    for l in 0..W {
+        out[l] = a[l] - b[l];
+    }
+    out
 }

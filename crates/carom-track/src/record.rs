@@ -118,6 +118,8 @@ pub struct End {
     pub velocity: Vec3,
     /// Spin then, rad/s.
     pub spin: Vec3,
+    /// Trial steps it took.
+    pub steps: u64,
 }
 
 /// Who listens to a run. Events of one particle come in order.

@@ -9,7 +9,7 @@ mod meeting;
 use crate::domain::Domain;
 use crate::dynamics::{Bodies, Dynamics};
 use crate::force::Sphere;
-use crate::integrate::{Control, Lanes, Motion, Rates, Step, growth, step};
+use crate::integrate::{Control, Derivative, Lanes, Lanes3, Motion, Rates, Step, growth, step};
 use crate::record::{End, Fate, Sink};
 use crate::vector::Vec3;
 use lane::Lane;
@@ -125,12 +125,28 @@ pub struct Tracker<'a, D> {
 
 /// The lanes at work.
 struct Crew<const W: usize> {
-    lanes: [Option<Lane>; W],
+    lanes: [Lane; W],
+    /// Which lanes have a particle.
+    busy: [bool; W],
     motion: Motion<W>,
     rates: Rates<W>,
     bodies: Bodies<W>,
     h: Lanes<W>,
     step: Step<W>,
+}
+
+/// The forces on the spheres of all lanes.
+struct Acting<'a, const W: usize, D> {
+    dynamics: &'a Dynamics,
+    domain: &'a D,
+    bodies: &'a Bodies<W>,
+}
+
+impl<const W: usize, D: Domain> Derivative<W> for Acting<'_, W, D> {
+    #[inline(always)]
+    fn rates(&self, motion: &Motion<W>, out: &mut Rates<W>) {
+        self.dynamics.rates(self.domain, self.bodies, motion, out);
+    }
 }
 
 impl<D: Domain> Tracker<'_, D> {
@@ -171,39 +187,39 @@ impl<D: Domain> Tracker<'_, D> {
     #[inline(always)]
     fn run_lanes<const W: usize>(&self, particles: &mut dyn Iterator<Item = Particle>, sink: &mut dyn Sink) {
         let mut crew = Crew::<W> {
-            lanes: [const { None }; W],
+            lanes: [Lane::IDLE; W],
+            busy: [false; W],
             motion: Motion::ZERO,
             rates: Rates::ZERO,
             bodies: Bodies::NONE,
             h: [0.0; W],
             step: Step::ZERO,
         };
-        let control = Control { tolerance: PER_STEP * self.settings.tolerance, spins: self.dynamics.spins() };
+        let control = Control { tolerance: PER_STEP * self.settings.tolerance, spins: self.dynamics.spins(), place: self.dynamics.need_place(self.domain) };
         loop {
             let mut working = false;
             for l in 0..W {
-                while crew.lanes[l].is_none() {
+                while !crew.busy[l] {
                     let Some(particle) = particles.next() else { break };
                     self.begin(&mut crew, l, particle, sink);
                 }
-                working |= crew.lanes[l].is_some();
+                working |= crew.busy[l];
             }
             if !working {
                 return;
             }
             for l in 0..W {
-                crew.h[l] = crew.lanes[l].as_ref().map_or(0.0, |lane| lane.next_step(self.settings.until));
+                crew.h[l] = if crew.busy[l] { crew.lanes[l].next_step(self.settings.until) } else { 0.0 };
             }
-            let bodies = &crew.bodies;
-            let rates = |m: &Motion<W>, out: &mut Rates<W>| self.dynamics.rates(self.domain, bodies, m, out);
-            step(&crew.motion, &crew.rates, &crew.h, control, &rates, &mut crew.step);
+            let forces = Acting { dynamics: self.dynamics, domain: self.domain, bodies: &crew.bodies };
+            step(&crew.motion, &crew.rates, &crew.h, control, &forces, &mut crew.step);
             let clear = self.domain.clear(&crew.motion.x, &crew.step.path, &crew.bodies.radius);
             let mut factor = [0.0; W];
             for l in 0..W {
                 factor[l] = growth(crew.step.error[l]);
             }
             for l in 0..W {
-                if crew.lanes[l].is_some() {
+                if crew.busy[l] {
                     self.advance(&mut crew, l, clear[l], factor[l], sink);
                 }
             }
@@ -220,13 +236,13 @@ impl<D: Domain> Tracker<'_, D> {
             crew.motion.spin[c][l] = particle.spin[c];
         }
         let trace = sink.start(&particle);
-        let mut lane = Lane::new(particle, trace);
-        if lane.time >= self.settings.until {
-            finish(crew, l, &lane, Fate::Airborne, None, sink);
+        crew.lanes[l] = Lane::new(particle, trace);
+        crew.busy[l] = true;
+        if particle.time >= self.settings.until {
+            finish(crew, l, Fate::Airborne, None, sink);
             return;
         }
-        lane.step = self.dynamics.first_step(crew.bodies.drag_rate[l]).min(self.settings.until - lane.time);
-        crew.lanes[l] = Some(lane);
+        crew.lanes[l].step = self.dynamics.first_step(crew.bodies.drag_rate[l]);
         self.refresh(crew, l);
     }
 
@@ -243,7 +259,8 @@ impl<D: Domain> Tracker<'_, D> {
 
     #[inline(always)]
     fn rates_at<const W: usize>(&self, bodies: &Bodies<W>, l: usize, x: Vec3, v: Vec3, spin: Vec3) -> Rates<1> {
-        let one = Motion::<1> { x: x.map(|c| [c]), v: v.map(|c| [c]), spin: spin.map(|c| [c]) };
+        let column = |v: Vec3| [[v[0]], [v[1]], [v[2]]];
+        let one = Motion::<1> { x: column(x), v: column(v), spin: column(spin) };
         let mut rates = Rates::ZERO;
         self.dynamics.rates(self.domain, &bodies.one(l), &one, &mut rates);
         rates
@@ -252,51 +269,49 @@ impl<D: Domain> Tracker<'_, D> {
     /// Takes a trial step of one lane: refuses it, accepts it, or ends it at a wall.
     #[inline(always)]
     fn advance<const W: usize>(&self, crew: &mut Crew<W>, l: usize, clear: bool, factor: f64, sink: &mut dyn Sink) {
-        let Some(mut lane) = crew.lanes[l].take() else { return };
-        lane.steps += 1;
         let h = crew.h[l];
         let good = crew.step.error[l] <= 1.0;
+        let lane = &mut crew.lanes[l];
+        lane.steps += 1;
         if lane.steps > self.settings.max_steps || (!good && lane.time + h == lane.time) {
             sink.stalled();
-            finish(crew, l, &lane, Fate::Airborne, None, sink);
+            finish(crew, l, Fate::Airborne, None, sink);
             return;
         }
         if !good {
             lane.step = h * factor.min(0.9);
-            crew.lanes[l] = Some(lane);
             return;
         }
-        let hit = if clear { None } else { self.domain.next_wall(&path_of(crew, l), crew.bodies.radius[l]) };
-        match hit {
-            // far down a long step the root keeps too few digits: look again with a step that fits
-            Some(hit) if hit.meeting.theta > 0.0 && hit.meeting.theta < 1e-3 && !lane.fitted => {
-                lane.step = 2.0 * hit.meeting.theta * h;
+        if !clear && let Some(hit) = self.domain.next_wall(&path_of(crew, l), crew.bodies.radius[l]) {
+            let lane = &mut crew.lanes[l];
+            let theta = hit.meeting.theta;
+            if theta > 0.0 && theta < 1e-3 && !lane.fitted {
+                // far down a long step the root keeps too few digits: look again with a step that fits
+                lane.step = 2.0 * theta * h;
                 lane.fitted = true;
-                crew.lanes[l] = Some(lane);
+            } else {
+                self.meet(crew, l, &hit, sink);
             }
-            Some(hit) => self.meet(crew, l, lane, &hit, sink),
-            None => {
-                if lane.trace {
-                    lane::trace(crew, l, &lane, 1.0, sink);
-                }
-                let last = h >= self.settings.until - lane.time;
-                lane.time = if last { self.settings.until } else { lane.time + h };
-                lane.step = h * factor;
-                lane.fitted = false;
-                lane.standing = 0;
-                for c in 0..3 {
-                    crew.motion.x[c][l] = crew.step.end.x[c][l];
-                    crew.motion.v[c][l] = crew.step.end.v[c][l];
-                    crew.motion.spin[c][l] = crew.step.end.spin[c][l];
-                    crew.rates.a[c][l] = crew.step.rates.a[c][l];
-                    crew.rates.alpha[c][l] = crew.step.rates.alpha[c][l];
-                }
-                if last {
-                    finish(crew, l, &lane, Fate::Airborne, None, sink);
-                } else {
-                    crew.lanes[l] = Some(lane);
-                }
-            }
+            return;
+        }
+        if crew.lanes[l].trace {
+            lane::trace(crew, l, 1.0, sink);
+        }
+        let lane = &mut crew.lanes[l];
+        let last = h >= self.settings.until - lane.time;
+        lane.time = if last { self.settings.until } else { lane.time + h };
+        lane.step = h * factor;
+        lane.fitted = false;
+        lane.standing = 0;
+        for c in 0..3 {
+            crew.motion.x[c][l] = crew.step.end.x[c][l];
+            crew.motion.v[c][l] = crew.step.end.v[c][l];
+            crew.motion.spin[c][l] = crew.step.end.spin[c][l];
+            crew.rates.a[c][l] = crew.step.rates.a[c][l];
+            crew.rates.alpha[c][l] = crew.step.rates.alpha[c][l];
+        }
+        if last {
+            finish(crew, l, Fate::Airborne, None, sink);
         }
     }
 }
@@ -304,23 +319,27 @@ impl<D: Domain> Tracker<'_, D> {
 /// Position, velocity and spin of one lane.
 #[inline(always)]
 fn motion_of<const W: usize>(m: &Motion<W>, l: usize) -> (Vec3, Vec3, Vec3) {
-    ([0, 1, 2].map(|c| m.x[c][l]), [0, 1, 2].map(|c| m.v[c][l]), [0, 1, 2].map(|c| m.spin[c][l]))
+    let at = |v: &Lanes3<W>| [v[0][l], v[1][l], v[2][l]];
+    (at(&m.x), at(&m.v), at(&m.spin))
 }
 
 #[inline(always)]
 fn path_of<const W: usize>(crew: &Crew<W>, l: usize) -> crate::geometry::Path {
-    let start = [0, 1, 2].map(|c| crew.motion.x[c][l]);
+    let x = &crew.motion.x;
+    let start = [x[0][l], x[1][l], x[2][l]];
     crate::geometry::Path { start, points: lane::points(&crew.step.path, l) }
 }
 
 /// Tells the sink how a lane's particle ended; the lane is free then.
 #[inline(always)]
-fn finish<const W: usize>(crew: &Crew<W>, l: usize, lane: &Lane, fate: Fate, wall: Option<usize>, sink: &mut dyn Sink) {
+fn finish<const W: usize>(crew: &mut Crew<W>, l: usize, fate: Fate, wall: Option<usize>, sink: &mut dyn Sink) {
+    crew.busy[l] = false;
+    let lane = &crew.lanes[l];
     let (position, velocity, spin) = motion_of(&crew.motion, l);
     if lane.trace {
         sink.point(lane.particle.number, lane.time, position, velocity, spin);
     }
-    sink.end(&End { particle: lane.particle, fate, wall, time: lane.time, position, velocity, spin });
+    sink.end(&End { particle: lane.particle, fate, wall, time: lane.time, position, velocity, spin, steps: lane.steps });
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use super::check::{needed, positive, word, wrong};
 use super::injection::{Injected, no_such_law};
 use super::text::{Si, WallText};
 use crate::domain::{ContactAt, Wall};
-use crate::geometry::{Cylinder, Plane, Shape};
+use crate::geometry::{Cylinder, Plane, Room, Shape};
 use crate::tracker::Behavior;
 use crate::vector::{dot, norm, scale, sub, unit};
 use carom::SpecError;
@@ -39,7 +39,7 @@ pub(super) fn read(at: &At<WallText>) -> Result<Wall, SpecError> {
                 let message = format!("the box has no extent along {}: {} m to {} m", ["x", "y", "z"][i], a[i], b[i]);
                 return Err(wrong(room, message).help("give the lower corner first"));
             }
-            Shape::room(a, b)
+            Shape::Room(Room { min: a, max: b })
         }
         (None, None, None) => return Err(wrong(at, format!("wall '{}' has no shape", text.name.value)).help("give plane, cylinder or box")),
         _ => return Err(wrong(at, format!("wall '{}' has more than one shape", text.name.value)).help("keep one of plane, cylinder and box")),
@@ -140,7 +140,7 @@ fn compile(text: &WallText, name: &str, law: &At<LawSpec>, injections: &[Injecte
 pub(super) fn contradictions(texts: &[At<WallText>], walls: &[Wall], largest: f64) -> Result<(), SpecError> {
     let planes = |w: &Wall| match &w.shape {
         Shape::Plane(p) => vec![*p],
-        Shape::Room(faces) => faces.to_vec(),
+        Shape::Room(room) => room.faces().to_vec(),
         Shape::Cylinder(_) => Vec::new(),
     };
     for (i, (a, at)) in walls.iter().zip(texts).enumerate() {

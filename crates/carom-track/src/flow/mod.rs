@@ -114,7 +114,7 @@ impl Flow {
     }
 
     /// [`Flow::velocity`] at `N` points at once, coordinates as columns; the same bits, in loops that vectorise.
-    #[inline]
+    #[inline(always)]
     pub fn velocities<const N: usize>(&self, x: &[[f64; N]; 3]) -> [[f64; N]; 3] {
         let mut u = [[0.0; N]; 3];
         match self {

@@ -48,15 +48,25 @@ impl Drag {
     }
 
     /// [`Drag::factor`] of `N` Reynolds numbers: the same bits, in loops that vectorise.
-    #[inline]
+    #[inline(always)]
     pub fn factors<const N: usize>(self, reynolds: &[f64; N]) -> [f64; N] {
-        let each = |f: fn(f64) -> f64| reynolds.map(f);
+        // plain loops: closures and function pointers would stand in the way of vectors
+        let mut factors = [0.0; N];
         match self {
-            Self::None => [0.0; N],
-            Self::Stokes => [1.0; N],
-            Self::SchillerNaumann => std::array::from_fn(|i| schiller_naumann(reynolds[i])),
-            Self::MorsiAlexander => each(morsi_alexander),
+            Self::None => {}
+            Self::Stokes => factors = [1.0; N],
+            Self::SchillerNaumann => {
+                for i in 0..N {
+                    factors[i] = schiller_naumann(reynolds[i]);
+                }
+            }
+            Self::MorsiAlexander => {
+                for i in 0..N {
+                    factors[i] = morsi_alexander(reynolds[i]);
+                }
+            }
         }
+        factors
     }
 }
 

@@ -43,7 +43,7 @@ impl Cylinder {
     /// Where a path first comes within `clearance`: a root of the squared distance from the axis, of degree eight.
     pub fn meet(&self, path: &Path, clearance: f64, slack: f64) -> Option<Meeting> {
         let sign: f64 = if self.inside { -1.0 } else { 1.0 };
-        let limit = sign.mul_add(clearance, self.radius);
+        let limit = self.radius + sign * clearance;
         let r0 = self.offset(path.start);
         if self.inside && self.all_within(path, r0, limit - slack) {
             return None;
@@ -51,15 +51,15 @@ impl Cylinder {
         let rho0 = dot(r0, r0).sqrt();
         let gap = sign * (rho0 - limit);
         let points = path.points.map(|p| self.across(p));
-        let mut change = Bernstein::constant(0.0, 8);
+        let mut change = Bernstein([0.0; 9]);
         for c in 0..3 {
-            let p = Bernstein::new(&[0.0, points[0][c], points[1][c], points[2][c], points[3][c]]);
+            let p = Bernstein([0.0, points[0][c], points[1][c], points[2][c], points[3][c]]);
             let shifted = p.scaled(1.0, 2.0 * r0[c]);
             change = change.plus(&p.times(&shifted));
         }
         let change = change.scaled(sign, 0.0);
         let sum = rho0 + limit;
-        let theta = first_contact(gap * sum, &change, slack * sum, &mut |_| true)?;
+        let theta = first_contact(gap * sum, &change, slack * sum, |_| true)?;
         let x = path.at(theta);
         let normal = self.normal(x);
         let off = self.distance(x) - clearance;

@@ -9,11 +9,13 @@ mod contact;
 mod cylinder;
 mod path;
 mod plane;
+mod room;
 
 pub use bernstein::Bernstein;
 pub use cylinder::Cylinder;
 pub use path::{Path, evaluate};
 pub use plane::Plane;
+pub use room::Room;
 
 use crate::vector::Vec3;
 
@@ -35,34 +37,17 @@ pub enum Shape {
     Plane(Plane),
     /// The inside of a pipe or the outside of a rod.
     Cylinder(Cylinder),
-    /// The inside of a box: its six faces.
-    Room([Plane; 6]),
+    /// The inside of a box.
+    Room(Room),
 }
 
 impl Shape {
-    /// The inside of the box between two corners.
-    pub fn room(min: Vec3, max: Vec3) -> Self {
-        let face = |axis: usize, point: Vec3, sign: f64| {
-            let mut normal = [0.0; 3];
-            normal[axis] = sign;
-            Plane { point, normal }
-        };
-        Self::Room([
-            face(0, min, 1.0),
-            face(0, max, -1.0),
-            face(1, min, 1.0),
-            face(1, max, -1.0),
-            face(2, min, 1.0),
-            face(2, max, -1.0),
-        ])
-    }
-
     /// Signed distance of a point, m; positive in the fluid.
     pub fn distance(&self, x: Vec3) -> f64 {
         match self {
             Self::Plane(p) => p.distance(x),
             Self::Cylinder(c) => c.distance(x),
-            Self::Room(faces) => faces.iter().map(|f| f.distance(x)).fold(f64::INFINITY, f64::min),
+            Self::Room(r) => r.distance(x),
         }
     }
 
@@ -71,15 +56,7 @@ impl Shape {
         match self {
             Self::Plane(p) => p.meet(path, clearance, slack),
             Self::Cylinder(c) => c.meet(path, clearance, slack),
-            Self::Room(faces) => earliest(faces.iter().filter_map(|f| f.meet(path, clearance, slack))),
+            Self::Room(r) => r.meet(path, clearance, slack),
         }
     }
-}
-
-/// The earliest of several meetings; the first of them where two coincide.
-pub fn earliest(meetings: impl Iterator<Item = Meeting>) -> Option<Meeting> {
-    meetings.fold(None, |best: Option<Meeting>, m| match best {
-        Some(b) if b.theta <= m.theta => Some(b),
-        _ => Some(m),
-    })
 }

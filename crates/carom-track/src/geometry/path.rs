@@ -26,20 +26,22 @@ impl Path {
     }
 
     /// Displacement along a direction, as a polynomial whose first coefficient is zero.
-    pub fn along(&self, n: Vec3) -> Bernstein {
+    #[inline]
+    pub fn along(&self, n: Vec3) -> Bernstein<5> {
         let p = &self.points;
-        Bernstein::new(&[0.0, dot(n, p[0]), dot(n, p[1]), dot(n, p[2]), dot(n, p[3])])
+        Bernstein([0.0, dot(n, p[0]), dot(n, p[1]), dot(n, p[2]), dot(n, p[3])])
     }
 }
 
 /// A quartic from zero with control points 1 to 4, at θ.
+#[inline]
 pub fn evaluate(points: &[Vec3; 4], theta: f64) -> Vec3 {
     let mut out = [0.0; 3];
     for (c, out) in out.iter_mut().enumerate() {
         let mut p = [0.0, points[0][c], points[1][c], points[2][c], points[3][c]];
         for top in (1..5).rev() {
             for i in 0..top {
-                p[i] = theta.mul_add(p[i + 1] - p[i], p[i]);
+                p[i] += theta * (p[i + 1] - p[i]);
             }
         }
         *out = p[0];

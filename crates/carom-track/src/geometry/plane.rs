@@ -20,9 +20,14 @@ impl Plane {
     }
 
     /// Where a path first comes within `clearance`.
+    #[inline]
     pub fn meet(&self, path: &Path, clearance: f64, slack: f64) -> Option<Meeting> {
         let gap = self.distance(path.start) - clearance;
-        let theta = first_contact(gap, &path.along(self.normal), slack, &mut |_| true)?;
+        let along = path.along(self.normal);
+        if gap > slack && gap + along.lower_bound() > 0.0 {
+            return None;
+        }
+        let theta = first_contact(gap, &along, slack, |_| true)?;
         let x = path.at(theta);
         let off = self.distance(x) - clearance;
         Some(Meeting { theta, position: add(x, scale(self.normal, -off)), normal: self.normal })

@@ -1,6 +1,6 @@
 use super::*;
 
-const CONTROL: Control = Control { tolerance: 1e-9, spins: false };
+const CONTROL: Control = Control { tolerance: 1e-9, spins: false, place: true };
 
 fn one(x: [f64; 3], v: [f64; 3]) -> Motion<1> {
     Motion { x: x.map(|c| [c]), v: v.map(|c| [c]), spin: [[0.0]; 3] }

@@ -25,7 +25,23 @@ pub(super) struct Lane {
 }
 
 impl Lane {
-    pub fn new(particle: Particle, trace: bool) -> Self {
+    /// No particle yet.
+    pub const IDLE: Self = Self::new(
+        Particle {
+            number: 0,
+            injection: 0,
+            diameter: 1.0,
+            density: 1.0,
+            weight: 0.0,
+            time: 0.0,
+            position: [0.0; 3],
+            velocity: [0.0; 3],
+            spin: [0.0; 3],
+        },
+        false,
+    );
+
+    pub const fn new(particle: Particle, trace: bool) -> Self {
         Self { particle, time: particle.time, step: 0.0, steps: 0, impacts: 0, standing: 0, fitted: false, trace }
     }
 
@@ -39,7 +55,8 @@ impl Lane {
 /// Control points of one lane.
 #[inline(always)]
 pub(super) fn points<const W: usize>(points: &[Lanes3<W>; 4], l: usize) -> [Vec3; 4] {
-    [0, 1, 2, 3].map(|i| [0, 1, 2].map(|c| points[i][c][l]))
+    let at = |p: &Lanes3<W>| [p[0][l], p[1][l], p[2][l]];
+    [at(&points[0]), at(&points[1]), at(&points[2]), at(&points[3])]
 }
 
 /// Most points of one step that a trajectory shows.
@@ -47,7 +64,8 @@ const MOST_POINTS: f64 = 64.0;
 
 /// Tells the sink the path from the start of the step up to `theta` (not included), with as many points as a smooth
 /// line needs: no chord further from the curve than a thousandth of the step's length.
-pub(super) fn trace<const W: usize>(crew: &Crew<W>, l: usize, lane: &Lane, theta: f64, sink: &mut dyn Sink) {
+pub(super) fn trace<const W: usize>(crew: &Crew<W>, l: usize, theta: f64, sink: &mut dyn Sink) {
+    let lane = &crew.lanes[l];
     let (x, v, spin) = super::motion_of(&crew.motion, l);
     let path = points(&crew.step.path, l);
     let speed = points(&crew.step.speed, l);

@@ -23,36 +23,38 @@ struct After {
 
 impl<D: Domain> Tracker<'_, D> {
     /// Ends a step at a wall.
-    pub(super) fn meet<const W: usize>(&self, crew: &mut Crew<W>, l: usize, mut lane: Lane, hit: &Hit, sink: &mut dyn Sink) {
+    #[inline(always)]
+    pub(super) fn meet<const W: usize>(&self, crew: &mut Crew<W>, l: usize, hit: &Hit, sink: &mut dyn Sink) {
         let theta = hit.meeting.theta;
         let h = crew.h[l];
-        if lane.trace {
-            trace(crew, l, &lane, theta, sink);
+        if crew.lanes[l].trace {
+            trace(crew, l, theta, sink);
         }
         let (_, v, spin) = motion_of(&crew.motion, l);
         let v = add(v, evaluate(&points(&crew.step.speed, l), theta));
         let spin = if self.dynamics.spins() { add(spin, evaluate(&points(&crew.step.twist, l), theta)) } else { spin };
-        lane.time = theta.mul_add(h, lane.time);
+        let lane = &mut crew.lanes[l];
+        lane.time += theta * h;
         lane.step = if theta > 0.1 { h } else { h * (4.0 * theta).max(1e-3) };
         lane.fitted = false;
         lane.standing = if theta > 0.0 { 0 } else { lane.standing + 1 };
-        put(crew, l, hit.meeting.position, v, spin);
+        lane.impacts += 1;
         if lane.trace {
             sink.point(lane.particle.number, lane.time, hit.meeting.position, v, spin);
         }
-        let after = self.outcome(crew, l, &lane, hit, v, spin);
-        lane.impacts += 1;
-        sink.impact(&record(&lane, hit, v, spin, &after));
+        let after = self.outcome(crew, l, hit, v, spin);
+        sink.impact(&record(&crew.lanes[l], hit, v, spin, &after));
         put(crew, l, hit.meeting.position, after.velocity, after.spin);
         if let Some(fate) = after.event.ends() {
-            finish(crew, l, &lane, fate, Some(hit.wall), sink);
+            finish(crew, l, fate, Some(hit.wall), sink);
         } else {
             self.refresh(crew, l);
-            crew.lanes[l] = Some(lane);
         }
     }
 
-    fn outcome<const W: usize>(&self, crew: &Crew<W>, l: usize, lane: &Lane, hit: &Hit, v: Vec3, spin: Vec3) -> After {
+    #[inline(always)]
+    fn outcome<const W: usize>(&self, crew: &Crew<W>, l: usize, hit: &Hit, v: Vec3, spin: Vec3) -> After {
+        let lane = &crew.lanes[l];
         let n = hit.meeting.normal;
         let stay = |event| After {
             event,
@@ -96,6 +98,7 @@ impl<D: Domain> Tracker<'_, D> {
     }
 
     /// Would the next bounce rise less than the stated height?
+    #[inline(always)]
     fn settles<const W: usize>(&self, crew: &Crew<W>, l: usize, hit: &Hit, after: &After) -> bool {
         let n = hit.meeting.normal;
         let up = dot(sub(after.velocity, hit.wall_velocity), n);
@@ -125,6 +128,7 @@ fn at_rest(law: &WallLaw, impact: &Impact) -> Event {
     }
 }
 
+#[inline(always)]
 fn put<const W: usize>(crew: &mut Crew<W>, l: usize, x: Vec3, v: Vec3, spin: Vec3) {
     for c in 0..3 {
         crew.motion.x[c][l] = x[c];
