@@ -10,7 +10,6 @@ mod pipe;
 mod profile;
 mod stagnation;
 mod table;
-mod tangent;
 
 pub use channel::Channel;
 pub use fluid::Fluid;
