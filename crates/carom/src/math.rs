@@ -27,21 +27,13 @@ pub fn ln(x: f64) -> f64 {
     let k = f64::from_bits(biased | 0x4330_0000_0000_0000) - (4_503_599_627_370_496.0 + 1023.0);
     let s = (m - 1.0) / (m + 1.0);
     let z = s * s;
-    let mut p: f64 = 1.0 / 23.0;
-    for c in [
-        1.0 / 21.0,
-        1.0 / 19.0,
-        1.0 / 17.0,
-        1.0 / 15.0,
-        1.0 / 13.0,
-        1.0 / 11.0,
-        1.0 / 9.0,
-        1.0 / 7.0,
-        1.0 / 5.0,
-        1.0 / 3.0,
-    ] {
-        p = p.mul_add(z, c);
-    }
+    // Σ zⁿ/(2n + 3), in pairs and pairs of pairs: a short chain of dependent operations
+    let z2 = z * z;
+    let z4 = z2 * z2;
+    let a = z2.mul_add(z.mul_add(1.0 / 9.0, 1.0 / 7.0), z.mul_add(1.0 / 5.0, 1.0 / 3.0));
+    let b = z2.mul_add(z.mul_add(1.0 / 17.0, 1.0 / 15.0), z.mul_add(1.0 / 13.0, 1.0 / 11.0));
+    let c = z2.mul_add(1.0 / 23.0, z.mul_add(1.0 / 21.0, 1.0 / 19.0));
+    let p = z4.mul_add(z4.mul_add(c, b), a);
     let tail = (s * z) * p;
     let low = k.mul_add(LN2_LOW, 2.0 * tail);
     k.mul_add(LN2_HIGH, 2.0f64.mul_add(s, low))
@@ -66,23 +58,17 @@ pub fn exp(x: f64) -> f64 {
     let shifted = x.mul_add(std::f64::consts::LOG2_E, SHIFT);
     let k = shifted - SHIFT;
     let r = k.mul_add(-LN2_LOW, k.mul_add(-LN2_HIGH, x));
-    let mut p: f64 = 1.0 / 6_227_020_800.0; // 1/13!
-    for c in [
-        1.0 / 479_001_600.0,
-        1.0 / 39_916_800.0,
-        1.0 / 3_628_800.0,
-        1.0 / 362_880.0,
-        1.0 / 40_320.0,
-        1.0 / 5_040.0,
-        1.0 / 720.0,
-        1.0 / 120.0,
-        1.0 / 24.0,
-        1.0 / 6.0,
-        0.5,
-    ] {
-        p = p.mul_add(r, c);
-    }
-    let p = (r * r).mul_add(p, r) + 1.0;
+    // Σ rⁿ/(n + 2)!, likewise
+    let r2 = r * r;
+    let r4 = r2 * r2;
+    let a = r2.mul_add(r.mul_add(1.0 / 120.0, 1.0 / 24.0), r.mul_add(1.0 / 6.0, 0.5));
+    let b = r2.mul_add(r.mul_add(1.0 / 362_880.0, 1.0 / 40_320.0), r.mul_add(1.0 / 5_040.0, 1.0 / 720.0));
+    let c = r2.mul_add(
+        r.mul_add(1.0 / 6_227_020_800.0, 1.0 / 479_001_600.0),
+        r.mul_add(1.0 / 39_916_800.0, 1.0 / 3_628_800.0),
+    );
+    let p = r4.mul_add(r4.mul_add(c, b), a);
+    let p = r2.mul_add(p, r) + 1.0;
     f64::from_bits(p.to_bits().wrapping_add(shifted.to_bits() << 52))
 }
 

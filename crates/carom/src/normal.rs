@@ -31,4 +31,10 @@ impl Size {
     pub fn flat(radius: f64) -> Self {
         Self { radius, kappa: 1.0, density_ratio: 1.0 }
     }
+
+    /// Flat wall, own density: every correction factor is exactly one.
+    #[inline(always)]
+    pub(crate) fn is_plain(&self) -> bool {
+        self.kappa == 1.0 && self.density_ratio == 1.0
+    }
 }

@@ -87,8 +87,19 @@ impl Resolved {
         self.respond(v, size).e
     }
 
-    #[inline(always)]
+    /// Not inlined: the series need a large stack frame, which the other laws should not pay for.
+    #[inline(never)]
     pub(crate) fn respond(&self, v: f64, size: &Size) -> NormalResponse {
+        #[cfg(target_arch = "x86_64")]
+        if std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma") {
+            // SAFETY: the processor has the features the function is compiled for, as was just asked.
+            return unsafe { respond_avx2(self, v, size) };
+        }
+        self.respond_body(v, size)
+    }
+
+    #[inline(always)]
+    fn respond_body(&self, v: f64, size: &Size) -> NormalResponse {
         let contact = self.contact(v, size);
         let motion = contact.solve(&mut |_, _| ());
         response(&contact, &motion)
@@ -130,6 +141,12 @@ impl Resolved {
         }
         Some(Window { capture_velocity: low, exhausted_velocity: f64::INFINITY })
     }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma")]
+fn respond_avx2(law: &Resolved, v: f64, size: &Size) -> NormalResponse {
+    law.respond_body(v, size)
 }
 
 /// Energy fractions from the work done along the way; e from what they leave.

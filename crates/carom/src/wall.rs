@@ -52,11 +52,12 @@ impl NormalResponse {
 }
 
 impl NormalLaw {
+    /// `tangent2` is the square of the tangential speed.
     #[inline(always)]
-    pub(crate) fn respond(&self, v_n: f64, v_t: f64, size: &Size) -> NormalResponse {
+    pub(crate) fn respond(&self, v_n: f64, tangent2: f64, size: &Size) -> NormalResponse {
         match self {
             Self::Ledger(ledger) => NormalResponse::of_losses(ledger.losses(v_n, size)),
-            Self::Table(curve) => NormalResponse::of_restitution(curve.at(v_n, v_t, 0.0, 1.0)),
+            Self::Table(curve) => NormalResponse::of_restitution(curve.at(v_n, tangent2.sqrt(), 0.0, 1.0)),
             Self::Resolved(resolved) => resolved.respond(v_n, size),
         }
     }
@@ -186,18 +187,19 @@ impl WallLaw {
         let v_n = -dot(&relative, &normal);
         checks::approach(v_n, &relative, &impact.spin)?;
         let tangent = add_scaled(&relative, v_n, &normal);
-        let v_t = norm(&tangent);
+        let tangent2 = dot(&tangent, &tangent);
         let spin_speed2 = dot(&impact.spin, &impact.spin);
         // twice the energy per mass
         let rotational = 0.4 * (size.radius * size.radius) * spin_speed2;
-        let incident = v_n.mul_add(v_n, v_t.mul_add(v_t, rotational));
-        let response = self.normal.respond(v_n, v_t, &size);
+        let share = 1.0 / v_n.mul_add(v_n, tangent2 + rotational);
+        let response = self.normal.respond(v_n, tangent2, &size);
         let validity = self.judge(v_n, &size, &response);
-        let energy = normal_energy(&response, v_n * v_n / incident);
+        let energy = normal_energy(&response, v_n * v_n * share);
         if response.e <= 0.0 {
             return Ok(captured(u, energy, validity));
         }
-        let out = self.slide(&Sliding { tangent, v_t, normal, v_n, spin: impact.spin, radius: size.radius }, &response);
+        let out =
+            self.slide(&Sliding { tangent, tangent2, normal, v_n, spin: impact.spin, radius: size.radius }, &response);
         let rebound_n = response.e * v_n;
         let velocity = add_scaled(&out.tangent, rebound_n, &normal);
         let kept = rebound_n.mul_add(rebound_n, dot(&out.tangent, &out.tangent))
@@ -208,9 +210,9 @@ impl WallLaw {
             spin: out.spin,
             restitution: response.e,
             impulse_ratio: out.ratio,
-            tangential_restitution: if v_t > 0.0 { dot(&out.tangent, &tangent) / (v_t * v_t) } else { f64::NAN },
+            tangential_restitution: if tangent2 > 0.0 { dot(&out.tangent, &tangent) / tangent2 } else { f64::NAN },
             contact: out.contact,
-            energy: Energy { friction: out.friction / incident, kept: kept / incident, ..energy },
+            energy: Energy { friction: out.friction * share, kept: kept * share, ..energy },
             validity,
         })
     }
@@ -243,14 +245,15 @@ impl WallLaw {
                 }
             }
             Tangential::Restitution(curve) => {
-                let e_t = curve.at(s.v_n, s.v_t, -1.0, 1.0);
+                let v_t = s.tangent2.sqrt();
+                let e_t = curve.at(s.v_n, v_t, -1.0, 1.0);
                 let tangent = [e_t * s.tangent[0], e_t * s.tangent[1], e_t * s.tangent[2]];
-                let out = e_t * s.v_t;
+                let out = e_t * v_t;
                 Slid {
                     tangent,
                     spin: s.spin,
-                    ratio: (s.v_t - out).abs() / normal_impulse,
-                    friction: s.v_t * s.v_t - out * out,
+                    ratio: (v_t - out).abs() / normal_impulse,
+                    friction: v_t * v_t - out * out,
                     contact: Contact::None,
                 }
             }
@@ -266,7 +269,7 @@ fn impact_fma(law: &WallLaw, impact: &Impact) -> Result<Outcome, ImpactError> {
 
 struct Sliding {
     tangent: Vec3,
-    v_t: f64,
+    tangent2: f64,
     normal: Vec3,
     v_n: f64,
     spin: Vec3,

@@ -32,7 +32,7 @@ struct Out {
 
 /// A normal law as a type, so that a loop holds no branch on its kind.
 trait Normal {
-    fn respond(&self, v_n: f64, v_t: f64, size: &Size) -> NormalResponse;
+    fn respond(&self, v_n: f64, tangent2: f64, size: &Size) -> NormalResponse;
 }
 
 struct Of<'a, A, P> {
@@ -48,8 +48,8 @@ impl<A: AdhesiveLoss, P: PlasticLoss> Normal for Of<'_, A, P> {
 }
 impl Normal for NormalLaw {
     #[inline(always)]
-    fn respond(&self, v_n: f64, v_t: f64, size: &Size) -> NormalResponse {
-        NormalLaw::respond(self, v_n, v_t, size)
+    fn respond(&self, v_n: f64, tangent2: f64, size: &Size) -> NormalResponse {
+        NormalLaw::respond(self, v_n, tangent2, size)
     }
 }
 
@@ -200,7 +200,7 @@ fn body<N: Normal, S: Sizing>(tangential: &Tangential, normal: &N, sizing: &S, c
             *all_fine = true;
             for i in 0..CHUNK {
                 let (vn, vt) = (v_n[i], v_t[i].abs());
-                let response = normal.respond(vn, vt, &sizing.size(diameter[i]));
+                let response = normal.respond(vn, vt * vt, &sizing.size(diameter[i]));
                 let e_t = curve.at(vn, vt, -1.0, 1.0);
                 let rebound = constant::rebound(e_t, v_t[i]);
                 let ratio = (vt - e_t * vt).abs() / ((1.0 + response.e) * vn);
@@ -224,7 +224,7 @@ fn with_friction<N: Normal, S: Sizing>(friction: f64, beta: f64, normal: &N, siz
     for i in 0..CHUNK {
         let (vn, vt, w) = (v_n[i], v_t[i], spin[i]);
         let size = sizing.size(diameter[i]);
-        let response = normal.respond(vn, vt.abs(), &size);
+        let response = normal.respond(vn, vt * vt, &size);
         let normal_impulse = (1.0 + response.e) * vn;
         let slip = (-size.radius).mul_add(w, vt);
         let (p, _) = friction_impulse(friction * response.friction_share, beta, slip.abs(), normal_impulse);

@@ -88,6 +88,9 @@ impl Work {
 /// κ⁻⁸ (ρ/ρ₀)⁶, exactly 1 on a flat wall with the law's own density.
 #[inline(always)]
 fn size_correction(size: &Size) -> f64 {
+    if size.is_plain() {
+        return 1.0;
+    }
     let k = 1.0 / size.kappa;
     let k2 = k * k;
     let k4 = k2 * k2;

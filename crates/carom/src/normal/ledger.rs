@@ -158,12 +158,6 @@ impl PlasticLoss for ThorntonNing {
         self.fraction(v, size)
     }
 }
-impl PlasticLoss for Tabor {
-    #[inline(always)]
-    fn lost(&self, v: f64, _: &Size) -> f64 {
-        self.fraction(v)
-    }
-}
 
 /// The adhesive losses as a type, likewise.
 pub(crate) trait AdhesiveLoss: Copy {
@@ -192,16 +186,6 @@ impl AdhesiveLoss for NoAdhesion {
         (0.0, 0.0)
     }
 }
-/// JKR work, with the damping of Ψ_A if that is in the ledger.
-#[derive(Clone, Copy)]
-pub(crate) struct JkrLoss(pub Jkr, pub WorkLoss);
-impl AdhesiveLoss for JkrLoss {
-    #[inline(always)]
-    fn lost(&self, v: f64, size: &Size) -> (f64, f64) {
-        (self.0.fraction(v, size), self.1.lost(v, size).1)
-    }
-}
-
 #[inline(always)]
 pub(crate) fn losses<A: AdhesiveLoss, P: PlasticLoss>(
     adhesive: &A,
@@ -238,27 +222,18 @@ impl Ledger {
     /// The fractions lost at normal approach speed `v` (m/s).
     #[inline(always)]
     pub fn losses(&self, v: f64, size: &Size) -> Losses {
-        match &self.plastic {
-            Plastic::None => self.with_plastic(&Elastic, v, size),
-            Plastic::Kadomtsev(p) => self.with_plastic(p, v, size),
-            Plastic::ThorntonNing(p) => self.with_plastic(p, v, size),
-            Plastic::Tabor(p) => self.with_plastic(p, v, size),
-        }
-    }
-
-    #[inline(always)]
-    fn with_plastic<P: PlasticLoss>(&self, plastic: &P, v: f64, size: &Size) -> Losses {
-        match &self.adhesion {
-            Adhesion::Jkr(jkr) if self.damping.adhesion != 0.0 => {
-                losses(&JkrLoss(*jkr, self.work_loss()), plastic, &self.damping, v, size)
-            }
-            Adhesion::Jkr(jkr) => {
-                let plain = losses(&NoAdhesion, plastic, &self.damping, v, size);
-                Losses { adhesion: jkr.fraction(v, size), ..plain }
-            }
-            _ if self.uses_work() => losses(&self.work_loss(), plastic, &self.damping, v, size),
-            _ => losses(&NoAdhesion, plastic, &self.damping, v, size),
-        }
+        let (work, adhesion_damping) = if self.uses_work() { self.work_loss().lost(v, size) } else { (0.0, 0.0) };
+        let adhesion = match &self.adhesion {
+            Adhesion::Jkr(jkr) => jkr.fraction(v, size),
+            _ => work,
+        };
+        let plastic = match &self.plastic {
+            Plastic::None => 0.0,
+            Plastic::Kadomtsev(p) => p.fraction(v, size),
+            Plastic::ThorntonNing(p) => p.fraction(v, size),
+            Plastic::Tabor(p) => p.fraction(v),
+        };
+        Losses { adhesion, adhesion_damping, hertz_damping: self.damping.hertz_fraction(v), plastic }
     }
 
     /// Restitution at normal approach speed `v` (m/s).

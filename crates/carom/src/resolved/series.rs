@@ -70,25 +70,38 @@ fn slope(c: &Series, x: f64) -> f64 {
     sum
 }
 
-/// k-th coefficient of a product.
-#[inline(always)]
-fn product(a: &Series, b: &Series, k: usize) -> f64 {
-    let mut sum = 0.0f64;
-    for j in 0..=k {
-        sum = a[j].mul_add(b[k - j], sum);
-    }
-    sum
+/// A series with its mirror image, so that the sum of a product runs along both in the same direction, four at a time.
+struct Mirrored {
+    forward: [f64; PADDED],
+    backward: [f64; 2 * PADDED],
 }
 
-/// k-th coefficient of a square.
-#[inline(always)]
-fn square(a: &Series, k: usize) -> f64 {
-    let mut sum = 0.0f64;
-    for j in 0..k.div_ceil(2) {
-        sum = a[j].mul_add(a[k - j], sum);
+const PADDED: usize = (ORDER + 1).next_multiple_of(4);
+
+impl Mirrored {
+    #[inline(always)]
+    fn new() -> Self {
+        Self { forward: [0.0; PADDED], backward: [0.0; 2 * PADDED] }
     }
-    sum *= 2.0;
-    if k % 2 == 0 { a[k / 2].mul_add(a[k / 2], sum) } else { sum }
+
+    #[inline(always)]
+    fn set(&mut self, k: usize, value: f64) {
+        self.forward[k] = value;
+        self.backward[PADDED - k] = value;
+    }
+
+    /// k-th coefficient of the product with `other`; later coefficients of both are still zero.
+    #[inline(always)]
+    fn times(&self, other: &Self, k: usize) -> f64 {
+        let start = PADDED - k;
+        let mut sums = [0.0f64; 4];
+        for j in (0..=k).step_by(4) {
+            for lane in 0..4 {
+                sums[lane] = self.forward[j + lane].mul_add(other.backward[start + j + lane], sums[lane]);
+            }
+        }
+        (sums[0] + sums[2]) + (sums[1] + sums[3])
+    }
 }
 
 impl Expansion {
@@ -96,45 +109,49 @@ impl Expansion {
     fn new(from: &State, contact: &Contact, adhesive: bool) -> Self {
         let zero = [0.0; ORDER + 1];
         let mut e = Self { s: zero, u: zero, time: zero, impulse: zero, hertz_work: zero, adhesion_work: zero };
-        let (mut p, mut q, mut pu, mut qu) = (zero, zero, zero, zero);
-        (e.s[0], e.u[0], e.time[0], e.impulse[0]) = (from.s, from.u, from.time, from.impulse);
+        (e.time[0], e.impulse[0]) = (from.time, from.impulse);
         (e.hertz_work[0], e.adhesion_work[0]) = (from.hertz_work, from.adhesion_work);
+        let (mut s, mut u) = (Mirrored::new(), Mirrored::new());
+        // p = x, q = x², and both times the speed
+        let (mut p, mut q, mut pu, mut qu) = (Mirrored::new(), Mirrored::new(), Mirrored::new(), Mirrored::new());
+        s.set(0, from.s);
+        u.set(0, from.u);
         let a = if adhesive { contact.adhesion } else { 0.0 };
-        let (ch, ca) = (contact.hertz_damping, contact.adhesion_damping);
-        let damped = ch != 0.0 || (ca != 0.0 && a != 0.0);
+        let (ch, aca) = (contact.hertz_damping, a * contact.adhesion_damping);
         for k in 0..ORDER {
             let next = RECIPROCAL[k];
-            p[k] = square(&e.s, k);
-            q[k] = square(&p, k);
-            let mut force = a.mul_add(p[k], -q[k]);
-            if damped {
-                pu[k] = product(&p, &e.u, k);
-                qu[k] = product(&q, &e.u, k);
-                force = (-ch).mul_add(qu[k], (-(a * ca)).mul_add(pu[k], force));
-                e.hertz_work[k + 1] = 2.0 * ch * product(&qu, &e.u, k) * next;
-                e.adhesion_work[k + 1] = 2.0 * (a * ca) * product(&pu, &e.u, k) * next;
+            p.set(k, s.times(&s, k));
+            q.set(k, p.times(&p, k));
+            let mut force = a.mul_add(p.forward[k], -q.forward[k]);
+            if ch != 0.0 {
+                qu.set(k, q.times(&u, k));
+                force = (-ch).mul_add(qu.forward[k], force);
+                e.hertz_work[k + 1] = 2.0 * ch * qu.times(&u, k) * next;
             }
-            e.s[k + 1] = e.u[k] * next;
-            e.u[k + 1] = 2.0 * force * next;
-            e.time[k + 1] = 2.0 * e.s[k] * next;
-            e.impulse[k + 1] = 2.0 * q[k] * next;
+            if aca != 0.0 {
+                pu.set(k, p.times(&u, k));
+                force = (-aca).mul_add(pu.forward[k], force);
+                e.adhesion_work[k + 1] = 2.0 * aca * pu.times(&u, k) * next;
+            }
+            s.set(k + 1, u.forward[k] * next);
+            u.set(k + 1, 2.0 * force * next);
+            e.time[k + 1] = 2.0 * s.forward[k] * next;
+            e.impulse[k + 1] = 2.0 * q.forward[k] * next;
         }
+        e.s.copy_from_slice(&s.forward[..=ORDER]);
+        e.u.copy_from_slice(&u.forward[..=ORDER]);
         e
     }
 
     /// Step that leaves out less than the tolerance, from the last two coefficients.
     #[inline(always)]
     fn step(&self) -> f64 {
-        let scale = |c: &Series, size: f64| {
-            let last = (c[ORDER].abs() / size).max(f64::MIN_POSITIVE);
-            let before = (c[ORDER - 1].abs() / size).max(f64::MIN_POSITIVE);
-            let root = |x: f64, n: f64| crate::math::exp(crate::math::ln(TOLERANCE / x) / n);
-            root(last, ORDER as f64).min(root(before, (ORDER - 1) as f64))
-        };
         // U and s move on the scale of their greatest values nearby
         let u = self.u[0].abs().max(self.u[1].abs() * 0.25).max(f64::MIN_POSITIVE);
         let s = self.s[0].abs().max(self.s[1].abs() * 0.25).max(f64::MIN_POSITIVE);
-        0.9 * scale(&self.u, u).min(scale(&self.s, s))
+        let size = |k: usize| (self.u[k].abs() / u).max(self.s[k].abs() / s).max(f64::MIN_POSITIVE);
+        let root = |x: f64, n: f64| crate::math::exp(crate::math::ln(TOLERANCE / x) / n);
+        0.9 * root(size(ORDER), ORDER as f64).min(root(size(ORDER - 1), (ORDER - 1) as f64))
     }
 
     #[inline(always)]
@@ -166,7 +183,7 @@ const RECIPROCAL: [f64; ORDER] = {
 fn crossing(c: &Series, h: f64) -> f64 {
     let (mut low, mut high) = (0.0, h);
     let end = horner(c, h);
-    let mut x = 0.5 * h;
+    let mut x = h * c[0] / (c[0] - end);
     for _ in 0..60 {
         let f = horner(c, x);
         if (f > 0.0) == (end > 0.0) {

@@ -141,7 +141,7 @@ impl WallLaw {
         // sliding to the end ⇔ f(1 + e)v_n < (2/7)(1 + β₀)v_t
         let excess = |angle: f64| {
             let (s, c) = angle.sin_cos();
-            let response = self.normal.respond(speed * s, speed * c, &size);
+            let response = self.normal.respond(speed * s, (speed * c) * (speed * c), &size);
             friction * response.friction_share * (1.0 + response.e) * s - (2.0 / 7.0) * (1.0 + beta) * c
         };
         Ok(Some(root(1e-9, std::f64::consts::FRAC_PI_2, excess)))

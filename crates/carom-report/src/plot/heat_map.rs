@@ -1,0 +1,224 @@
+//! Heat maps: a value over two axes.
+
+use std::path::Path;
+
+use super::canvas::{self, Anchor, Canvas, Label, Stroke};
+use super::frame::{Frame, LABEL, TICK, vertical_ticks, widest};
+use super::scaled::{Margin, Scaled};
+use super::ticks::Tick;
+use super::{Axis, Color, ColorMap, ImageFormat, SIZE, png, write_image};
+use crate::ReportError;
+
+/// Colour of a cell without a value.
+const MISSING: Color = Color(225, 225, 225);
+const BAR_WIDTH: f64 = 20.0;
+
+/// A map of a value over cells between edges, with a colour bar.
+///
+/// ```
+/// use carom_report::{Axis, HeatMap};
+///
+/// let map = HeatMap::new("Deposit", Axis::new("x", "m"), Axis::new("z", "m"), Axis::scaled("mass", "mg", 1e6))
+///     .cells([0.0, 0.1, 0.2], [0.0, 0.05, 0.1], [1e-6, 2e-6, f64::NAN, 4e-6]); // rows of x, one for each z
+/// assert!(map.svg()?.contains("mass (mg)"));
+/// # Ok::<(), carom_report::ReportError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct HeatMap {
+    /// Title above the map; may be empty.
+    pub title: String,
+    /// Horizontal axis.
+    pub x: Axis,
+    /// Vertical axis.
+    pub y: Axis,
+    /// The value: its name, unit, scale and range, shown beside the colour bar.
+    pub value: Axis,
+    /// Edges of the cells along x.
+    pub x_edges: Vec<f64>,
+    /// Edges of the cells along y.
+    pub y_edges: Vec<f64>,
+    /// Values row after row, x running fastest; NaN is a cell without value (grey).
+    pub values: Vec<f64>,
+    /// Colours.
+    pub colors: ColorMap,
+    /// Width and height in CSS pixels.
+    pub size: (u32, u32),
+}
+
+impl HeatMap {
+    /// A map without cells.
+    pub fn new(title: impl Into<String>, x: Axis, y: Axis, value: Axis) -> Self {
+        let none = Vec::new;
+        let title = title.into();
+        Self {
+            title,
+            x,
+            y,
+            value,
+            x_edges: none(),
+            y_edges: none(),
+            values: none(),
+            colors: ColorMap::Viridis,
+            size: SIZE,
+        }
+    }
+
+    /// Sets the cells: edges along both axes and the values, row after row with x running fastest.
+    #[must_use]
+    pub fn cells(
+        mut self,
+        x_edges: impl IntoIterator<Item = f64>,
+        y_edges: impl IntoIterator<Item = f64>,
+        values: impl IntoIterator<Item = f64>,
+    ) -> Self {
+        self.x_edges = x_edges.into_iter().collect();
+        self.y_edges = y_edges.into_iter().collect();
+        self.values = values.into_iter().collect();
+        self
+    }
+
+    /// Chooses the colours.
+    #[must_use]
+    pub fn colors(mut self, colors: ColorMap) -> Self {
+        self.colors = colors;
+        self
+    }
+
+    /// The map as an SVG document.
+    ///
+    /// # Errors
+    /// [`ReportError::Mismatch`] where the number of values does not fit the edges.
+    pub fn svg(&self) -> Result<String, ReportError> {
+        let (columns, rows) = (
+            self.x_edges.len().saturating_sub(1),
+            self.y_edges.len().saturating_sub(1),
+        );
+        if self.values.len() != columns * rows {
+            let got = self.values.len();
+            return Err(ReportError::Mismatch(format!(
+                "heat map \"{}\": {got} values for {columns} × {rows} cells",
+                self.title
+            )));
+        }
+        let margin = if self.colors == ColorMap::Diverging {
+            Margin::Symmetric
+        } else {
+            Margin::None
+        };
+        let value = Scaled::new(&self.value, self.values.iter().copied(), margin);
+        let x = Scaled::new(&self.x, self.x_edges.iter().copied(), Margin::None);
+        let y = Scaled::new(&self.y, self.y_edges.iter().copied(), Margin::None);
+        let ticks = vertical_ticks(&value, f64::from(self.size.1) - 110.0);
+        let beside = 18.0
+            + BAR_WIDTH
+            + 9.0
+            + widest(&ticks)
+            + if self.value.heading().is_empty() {
+                14.0
+            } else {
+                38.0
+            };
+        let frame = Frame::new(&self.title, (&self.x, &self.y), (x, y), self.size, beside);
+        canvas::document(frame.size, |canvas| {
+            self.draw_cells(canvas, &frame, &value)?;
+            self.draw_bar(canvas, &frame, &ticks)?;
+            frame.axes(canvas, &self.title, &self.x, &self.y)
+        })
+    }
+
+    fn draw_cells(
+        &self,
+        canvas: &Canvas<'_>,
+        frame: &Frame,
+        value: &Scaled,
+    ) -> Result<(), ReportError> {
+        let columns = self.x_edges.len().saturating_sub(1);
+        for (row, y) in self.y_edges.windows(2).enumerate() {
+            for (column, x) in self.x_edges.windows(2).enumerate() {
+                let (Some(from), Some(to)) = (frame.point(x[0], y[0]), frame.point(x[1], y[1]))
+                else {
+                    continue;
+                };
+                let data = self.values[row * columns + column];
+                let color = match value.share_or_low(data) {
+                    Some(share) => self.colors.at(share),
+                    None if data == f64::INFINITY => self.colors.at(1.0),
+                    None if data == f64::NEG_INFINITY => self.colors.at(0.0),
+                    None => MISSING,
+                };
+                // A pixel on into the neighbours drawn next, so that no seam shows where a page scales the picture.
+                let further = [0, 1].map(|i| to[i] + (to[i] - from[i]).signum());
+                let [from, to] = [from, further].map(|p| frame.rect.clamp(p));
+                canvas.rectangle(from, to, color, 1.0)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn draw_bar(
+        &self,
+        canvas: &Canvas<'_>,
+        frame: &Frame,
+        ticks: &[(f64, Tick)],
+    ) -> Result<(), ReportError> {
+        let (left, top, bottom) = (frame.rect.right + 18.0, frame.rect.top, frame.rect.bottom);
+        let right = left + BAR_WIDTH;
+        let height = frame.rect.height();
+        let steps = height.round().max(1.0) as u32;
+        for step in 0..steps {
+            let at = |i: f64| (bottom - height * i / f64::from(steps)).max(top);
+            let (foot, head) = (at(f64::from(step)), at(f64::from(step) + 2.0));
+            let share = (f64::from(step) + 0.5) / f64::from(steps);
+            canvas.rectangle([left, foot], [right, head], self.colors.at(share), 1.0)?;
+        }
+        let stroke = Stroke::new(Color(70, 70, 70), 1.0);
+        canvas.line(
+            &[
+                [left, top],
+                [right, top],
+                [right, bottom],
+                [left, bottom],
+                [left, top],
+            ],
+            stroke,
+        )?;
+        for (share, tick) in ticks {
+            let at = bottom - share * height;
+            let length = if tick.label.is_some() { 5.0 } else { 3.0 };
+            canvas.line(&[[right, at], [right + length, at]], stroke)?;
+            if let Some(text) = &tick.label {
+                canvas.text(
+                    [right + 9.0, at + 0.36 * TICK],
+                    Label::new(text, TICK, Anchor::Start),
+                )?;
+            }
+        }
+        let heading = self.value.heading();
+        let at = [right + 9.0 + widest(ticks) + 24.0, 0.5 * (top + bottom)];
+        canvas.text(
+            at,
+            Label {
+                upright: true,
+                ..Label::new(&heading, LABEL, Anchor::Middle)
+            },
+        )
+    }
+
+    /// The map as PNG bytes, two pixels for each CSS pixel.
+    ///
+    /// # Errors
+    /// As for [`HeatMap::svg`].
+    pub fn png(&self) -> Result<Vec<u8>, ReportError> {
+        png::encode(&self.svg()?)
+    }
+
+    /// Writes the map to `path` as SVG or PNG, told by its extension.
+    ///
+    /// # Errors
+    /// [`ReportError::UnknownExtension`], what the file system says, or as for [`HeatMap::svg`].
+    pub fn write(&self, path: impl AsRef<Path>) -> Result<(), ReportError> {
+        let path = path.as_ref();
+        let format = ImageFormat::from_path(path)?;
+        write_image(path, format, &self.svg()?)
+    }
+}

@@ -1,0 +1,163 @@
+//! Formats, and writing a table as a stream.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use super::csv::CsvEncoder;
+use super::json::JsonEncoder;
+use super::parquet::ParquetEncoder;
+use super::{Schema, Table, check_schema};
+use crate::ReportError;
+use crate::file::{self, NewFile};
+
+/// A file format for tables.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// Comma-separated: a header of bare names, empty for a missing value.
+    Csv,
+    /// Apache Parquet: typed and nullable, snappy, units as a JSON object under the file's key `units`.
+    Parquet,
+    /// JSON: an array of one object a row, null for a missing value.
+    Json,
+}
+
+impl Format {
+    /// The format told by a path's extension: `.csv`, `.parquet` or `.json`.
+    ///
+    /// # Errors
+    /// [`ReportError::UnknownExtension`], naming the known ones.
+    pub fn from_path(path: impl AsRef<Path>) -> Result<Self, ReportError> {
+        match file::extension(path.as_ref()).as_str() {
+            "csv" => Ok(Self::Csv),
+            "parquet" => Ok(Self::Parquet),
+            "json" => Ok(Self::Json),
+            _ => Err(ReportError::UnknownExtension {
+                path: path.as_ref().to_path_buf(),
+                known: ".csv, .parquet and .json",
+            }),
+        }
+    }
+}
+
+enum Encoder<W: Write + Send> {
+    Csv(Box<CsvEncoder<W>>),
+    Json(JsonEncoder<W>),
+    Parquet(Box<ParquetEncoder<W>>),
+}
+
+/// Writes tables of one schema one after the other into one file; memory stays flat.
+///
+/// Nothing is at the target path until [`TableWriter::finish`]; a writer dropped before leaves no file.
+///
+/// ```
+/// use carom_report::{Cell, Field, Table, TableWriter};
+///
+/// # let folder = tempfile::tempdir()?;
+/// # let path = folder.path().join("impacts.csv");
+/// let schema = vec![Field::count("particle"), Field::float("time", "s"), Field::text("wall")];
+/// let mut block = Table::with_schema(&schema)?;
+/// let mut writer = TableWriter::create(&path, schema)?;
+/// for particle in 0..3_u64 {
+///     block.clear();
+///     block.push([particle.into(), 0.5.into(), Cell::from("floor")])?;
+///     writer.write(&block)?;
+/// }
+/// writer.finish()?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct TableWriter<W: Write + Send = Target> {
+    schema: Schema,
+    encoder: Encoder<W>,
+    /// Where the file will be, for messages.
+    path: Option<PathBuf>,
+}
+
+/// The file of a [`TableWriter`] made by [`TableWriter::create`].
+pub struct Target(NewFile);
+
+impl Write for Target {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.0.write(bytes)
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        self.0.flush()
+    }
+}
+
+impl TableWriter<Target> {
+    /// Starts a file in the format told by the path's extension.
+    ///
+    /// # Errors
+    /// [`ReportError::UnknownExtension`], [`ReportError::Mismatch`] for a name used twice, or what the file system says.
+    pub fn create(path: impl AsRef<Path>, schema: Schema) -> Result<Self, ReportError> {
+        let path = path.as_ref();
+        let format = Format::from_path(path)?;
+        let mut writer = Self::to_stream(Target(NewFile::create(path)?), format, schema)
+            .map_err(|e| e.at(path))?;
+        writer.path = Some(path.to_path_buf());
+        Ok(writer)
+    }
+
+    /// Completes the file and puts it at its path.
+    ///
+    /// # Errors
+    /// What the file system or the encoder says; no file is then left.
+    pub fn finish(self) -> Result<(), ReportError> {
+        self.finish_stream()?.0.commit()
+    }
+}
+
+impl<W: Write + Send> TableWriter<W> {
+    /// Starts a stream (standard output, a buffer) in a given format.
+    ///
+    /// # Errors
+    /// [`ReportError::Mismatch`] for a name used twice, or what the encoder says.
+    pub fn to_stream(stream: W, format: Format, schema: Schema) -> Result<Self, ReportError> {
+        Table::with_schema(&schema)?;
+        let encoder = match format {
+            Format::Csv => Encoder::Csv(Box::new(CsvEncoder::new(stream, &schema)?)),
+            Format::Json => Encoder::Json(JsonEncoder::new(stream, &schema)?),
+            Format::Parquet => Encoder::Parquet(Box::new(ParquetEncoder::new(stream, &schema)?)),
+        };
+        Ok(Self {
+            schema,
+            encoder,
+            path: None,
+        })
+    }
+
+    /// Appends a table's rows.
+    ///
+    /// # Errors
+    /// [`ReportError::Mismatch`] where the table has another schema, or what the encoder says.
+    pub fn write(&mut self, table: &Table) -> Result<(), ReportError> {
+        check_schema(&self.schema, table)?;
+        let written = match &mut self.encoder {
+            Encoder::Csv(e) => e.write(table),
+            Encoder::Json(e) => e.write(table),
+            Encoder::Parquet(e) => e.write(table),
+        };
+        written.map_err(|e| on_path(e, self.path.as_deref()))
+    }
+
+    /// Completes the stream and hands it back.
+    ///
+    /// # Errors
+    /// What the encoder says.
+    pub fn finish_stream(self) -> Result<W, ReportError> {
+        let finished = match self.encoder {
+            Encoder::Csv(e) => e.finish(),
+            Encoder::Json(e) => e.finish(),
+            Encoder::Parquet(e) => e.finish(),
+        };
+        finished.map_err(|e| on_path(e, self.path.as_deref()))
+    }
+}
+
+fn on_path(error: ReportError, path: Option<&Path>) -> ReportError {
+    match path {
+        Some(path) => error.at(path),
+        None => error,
+    }
+}
