@@ -81,7 +81,7 @@ impl Channel {
     }
 
     /// Velocity at `x`, m/s.
-    #[inline]
+    #[inline(always)]
     pub fn velocity(&self, x: [f64; 3]) -> [f64; 3] {
         let u = match &self.shape {
             Shape::Plug => self.mean_speed,
@@ -92,7 +92,7 @@ impl Channel {
     }
 
     /// Streamwise velocity at `N` heights.
-    #[inline]
+    #[inline(always)]
     pub(super) fn velocities<const N: usize>(&self, y: &[f64; N], u: &mut [f64; N]) {
         match &self.shape {
             Shape::Plug => *u = [self.mean_speed; N],

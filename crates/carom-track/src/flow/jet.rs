@@ -53,7 +53,7 @@ impl SlotJet {
     }
 
     /// Whether a point is in the jet, its mirror image x → |x| scaled by the width.
-    #[inline]
+    #[inline(always)]
     fn contains(x: f64, y: f64) -> bool {
         // beyond 60 widths the powers would overflow, and the surface is long at its asymptotes
         let power = |s: f64| exp(PI * (s.min(60.0) - 0.5)) - 1.0;
@@ -62,14 +62,14 @@ impl SlotJet {
     }
 
     /// w = (u − iv)/U at |x| and y ≥ 0; `None` outside the jet.
-    #[inline]
+    #[inline(always)]
     fn complex_velocity(&self, x: [f64; 3]) -> Option<Complex> {
         let (x, y) = (x[0].abs() / self.width, x[1].max(0.0) / self.width);
         Self::contains(x, y).then(|| invert(Complex(FRAC_PI_2 * x, FRAC_PI_2 * y)))
     }
 
     /// Velocity at `x`, m/s.
-    #[inline]
+    #[inline(always)]
     pub fn velocity(&self, x: [f64; 3]) -> [f64; 3] {
         match self.complex_velocity(x) {
             Some(w) => [(w.0 * self.speed).copysign(x[0]), -w.1 * self.speed, 0.0],
@@ -97,18 +97,18 @@ impl SlotJet {
 struct Complex(f64, f64);
 
 impl Complex {
-    #[inline]
+    #[inline(always)]
     fn add(self, other: Self, times: f64) -> Self {
         Self(self.0 + times * other.0, self.1 + times * other.1)
     }
 
-    #[inline]
+    #[inline(always)]
     fn multiply(self, other: Self) -> Self {
         Self(self.0 * other.0 - self.1 * other.1, self.0 * other.1 + self.1 * other.0)
     }
 
     /// 1 − w⁴.
-    #[inline]
+    #[inline(always)]
     fn one_minus_fourth(self) -> Self {
         let square = self.multiply(self);
         let fourth = square.multiply(square);
@@ -116,7 +116,7 @@ impl Complex {
     }
 
     /// artanh of a number of the unit disc with both parts ≥ 0.
-    #[inline]
+    #[inline(always)]
     fn artanh(self) -> Self {
         let Self(a, b) = self;
         let far = (1.0 + a) * (1.0 + a) + b * b;
@@ -126,6 +126,7 @@ impl Complex {
 }
 
 /// The root w of arctan w + artanh w = ζ, both parts of ζ ≥ 0, inside the jet.
+#[inline(always)]
 fn invert(zeta: Complex) -> Complex {
     // 1 − |w| is below rounding there
     const FAR: f64 = 20.0;
@@ -147,6 +148,7 @@ fn invert(zeta: Complex) -> Complex {
 }
 
 /// A first estimate of w(ζ).
+#[inline(always)]
 fn start(zeta: Complex) -> Complex {
     // far along the plate or up the jet, ζ − π/4 = artanh of w or of w/i but for a phase
     let far = |s: f64| 1.0 - 2.0 * exp(FRAC_PI_2 - 2.0 * s);
@@ -166,7 +168,7 @@ fn start(zeta: Complex) -> Complex {
 }
 
 /// The nearest number of the quarter disc.
-#[inline]
+#[inline(always)]
 fn inside(w: Complex) -> Complex {
     let Complex(a, b) = Complex(w.0.max(0.0), w.1.max(0.0));
     let size = (a * a + b * b).sqrt().max(1.0);
@@ -206,7 +208,7 @@ impl RoundJet {
     }
 
     /// Velocity at `x`, m/s.
-    #[inline]
+    #[inline(always)]
     pub fn velocity(&self, x: [f64; 3]) -> [f64; 3] {
         let rest = self.rest(x[1]);
         let radial = 1.5 * self.speed / self.thickness * rest * rest;

@@ -98,7 +98,7 @@ pub enum Flow {
 
 impl Flow {
     /// Fluid velocity at `x`, m/s: what drag needs, and no more.
-    #[inline]
+    #[inline(always)]
     pub fn velocity(&self, x: [f64; 3]) -> [f64; 3] {
         match self {
             Self::Still => [0.0; 3],
@@ -113,7 +113,7 @@ impl Flow {
     }
 
     /// [`Flow::velocity`] at `N` points at once, coordinates as columns; the same bits, in loops that vectorise.
-    #[inline]
+    #[inline(always)]
     pub fn velocities<const N: usize>(&self, x: &[[f64; N]; 3]) -> [[f64; N]; 3] {
         let mut u = [[0.0; N]; 3];
         match self {

@@ -47,16 +47,26 @@ impl Drag {
         }
     }
 
-    /// [`Drag::factor`] of `N` Reynolds numbers: the same bits, in loops that vectorise.
-    #[inline]
+    /// [`Drag::factor`] of `N` Reynolds numbers: the same bits, in loops that vectorise where the caller is compiled for
+    /// an instruction set with fused multiply-add.
+    #[inline(always)]
     pub fn factors<const N: usize>(self, reynolds: &[f64; N]) -> [f64; N] {
-        let each = |f: fn(f64) -> f64| reynolds.map(f);
+        let mut f = [1.0; N];
         match self {
-            Self::None => [0.0; N],
-            Self::Stokes => [1.0; N],
-            Self::SchillerNaumann => std::array::from_fn(|i| schiller_naumann(reynolds[i])),
-            Self::MorsiAlexander => each(morsi_alexander),
+            Self::None => f = [0.0; N],
+            Self::Stokes => {}
+            Self::SchillerNaumann => {
+                for (f, re) in f.iter_mut().zip(reynolds) {
+                    *f = schiller_naumann(*re);
+                }
+            }
+            Self::MorsiAlexander => {
+                for (f, re) in f.iter_mut().zip(reynolds) {
+                    *f = morsi_alexander(*re);
+                }
+            }
         }
+        f
     }
 }
 
