@@ -137,12 +137,15 @@ fn invert(zeta: Complex) -> Complex {
         return Complex(0.0, 1.0);
     }
     let mut w = start(zeta);
-    // Newton's iteration to rounding
-    for _ in 0..5 {
+    // Newton's iteration; where the last error's square is below rounding the step has removed it
+    for _ in 0..8 {
         // arctan w = −i artanh(iw), and artanh(iw) is the mirror image of artanh(b + ia)
         let (t, c) = (w.artanh(), Complex(w.1, w.0).artanh());
         let error = Complex(t.0 + c.1 - zeta.0, t.1 + c.0 - zeta.1);
         w = inside(w.add(error.multiply(w.one_minus_fourth()), -0.5));
+        if error.0 * error.0 + error.1 * error.1 < 1e-17 {
+            break;
+        }
     }
     w
 }
