@@ -14,7 +14,7 @@ pub use injection::Injected;
 use crate::domain::{Analytic, Wall};
 use crate::dynamics::Dynamics;
 use crate::injection::Start;
-use crate::tracker::{Behavior, Particle, SettleHeight, Settings, Tracker};
+use crate::tracker::{Behavior, Particle, Settings, SettleHeight, Tracker};
 use carom::SpecError;
 use carom::material::Library;
 use check::{positive, wrong};
@@ -189,7 +189,9 @@ fn injected_in_the_fluid(walls: &[Wall], injections: &[Injected], behaviors: &[B
         if let Start::Velocity(v) = plan.velocity
             && !v.iter().all(|c| c.abs() < 1e6)
         {
-            return Err(SpecError::new(format!("{} starts at {v:?} m/s", injected.name)).help("below 1e6 m/s is wanted").at(injected.place.clone()));
+            return Err(SpecError::new(format!("{} starts at {v:?} m/s", injected.name))
+                .help("below 1e6 m/s is wanted")
+                .at(injected.place.clone()));
         }
     }
     Ok(())

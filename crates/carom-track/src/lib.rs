@@ -4,7 +4,6 @@
 //! [`injection`] where spheres start, [`random`] where chance comes from; [`domain`] joins flow and walls, [`tracker`]
 //! takes each sphere from its injection to its fate.
 
-
 mod block;
 pub mod case;
 pub mod domain;

@@ -55,7 +55,8 @@ impl std::str::FromStr for Shard {
     fn from_str(text: &str) -> Result<Self, String> {
         let error = || format!("'{text}' is no shard: write i/n with 1 <= i <= n, such as 2/8");
         let (index, of) = text.split_once('/').ok_or_else(error)?;
-        let shard = Self { index: index.trim().parse().map_err(|_| error())?, of: of.trim().parse().map_err(|_| error())? };
+        let shard =
+            Self { index: index.trim().parse().map_err(|_| error())?, of: of.trim().parse().map_err(|_| error())? };
         if shard.index >= 1 && shard.index <= shard.of { Ok(shard) } else { Err(error()) }
     }
 }

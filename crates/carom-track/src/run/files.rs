@@ -60,7 +60,9 @@ impl State {
             Err(e) if e.kind() == std::io::ErrorKind::NotFound => return Ok(None),
             Err(e) => return Err(RunError::io(&path)(e)),
         };
-        serde_json::from_str(&text).map(Some).map_err(|e| RunError::Foreign { path, message: format!("not a checkpoint of this program ({e})") })
+        serde_json::from_str(&text)
+            .map(Some)
+            .map_err(|e| RunError::Foreign { path, message: format!("not a checkpoint of this program ({e})") })
     }
 
     fn write(&self, folder: &Path) -> Result<(), RunError> {
@@ -98,7 +100,8 @@ impl Output {
         let mut state = state.unwrap_or(fresh);
         let impacts = table(folder, IMPACTS, case.impacts, IMPACTS_HEADER, lengths.map(|l| l.0), &mut state.impacts)?;
         let wanted = case.trajectories > 0;
-        let trajectories = table(folder, TRAJECTORIES, wanted, TRAJECTORIES_HEADER, lengths.map(|l| l.1), &mut state.trajectories)?;
+        let trajectories =
+            table(folder, TRAJECTORIES, wanted, TRAJECTORIES_HEADER, lengths.map(|l| l.1), &mut state.trajectories)?;
         state.write(folder)?;
         Ok(Self { folder: folder.to_owned(), impacts, trajectories, state })
     }
@@ -149,7 +152,14 @@ fn same_run(old: State, fresh: &State, folder: &Path) -> Result<State, RunError>
 }
 
 /// Opens a table for appending after its whole rows; a new one gets its header.
-fn table(folder: &Path, name: &str, wanted: bool, header: &str, length: Option<u64>, whole: &mut u64) -> Result<Option<File>, RunError> {
+fn table(
+    folder: &Path,
+    name: &str,
+    wanted: bool,
+    header: &str,
+    length: Option<u64>,
+    whole: &mut u64,
+) -> Result<Option<File>, RunError> {
     let path = folder.join(name);
     let error = RunError::io(&path);
     if !wanted {
@@ -158,7 +168,8 @@ fn table(folder: &Path, name: &str, wanted: bool, header: &str, length: Option<u
             _ => return Ok(None),
         }
     }
-    let mut file = OpenOptions::new().create(true).write(true).truncate(length.is_none()).open(&path).map_err(&error)?;
+    let mut file =
+        OpenOptions::new().create(true).write(true).truncate(length.is_none()).open(&path).map_err(&error)?;
     match length {
         None => {
             file.write_all(header.as_bytes()).map_err(&error)?;

@@ -15,7 +15,8 @@ use std::path::{Path, PathBuf};
 pub fn merge(shards: &[PathBuf], out: &Path) -> Result<Summary, RunError> {
     let mut parts = Vec::new();
     for folder in shards {
-        let state = State::read(folder)?.ok_or_else(|| foreign(folder, "no checkpoint.json: not the output of a shard"))?;
+        let state =
+            State::read(folder)?.ok_or_else(|| foreign(folder, "no checkpoint.json: not the output of a shard"))?;
         if state.next < state.blocks.end {
             return Err(foreign(folder, "this shard is not finished: go on with it with --resume"));
         }
@@ -33,7 +34,11 @@ pub fn merge(shards: &[PathBuf], out: &Path) -> Result<Summary, RunError> {
         let wanted = i as u64 + 1;
         if state.shard.index != wanted {
             let twice = state.shard.index < wanted;
-            let message = if twice { format!("shard {}/{of} twice", state.shard.index) } else { format!("shard {wanted}/{of} is missing") };
+            let message = if twice {
+                format!("shard {}/{of} twice", state.shard.index)
+            } else {
+                format!("shard {wanted}/{of} is missing")
+            };
             return Err(foreign(folder, &message));
         }
     }
@@ -54,7 +59,13 @@ fn foreign(path: &Path, message: &str) -> RunError {
 }
 
 /// One table after the other, with one header.
-fn join(parts: &[(State, &PathBuf)], out: &Path, name: &str, header: &str, length: impl Fn(&State) -> u64) -> Result<(), RunError> {
+fn join(
+    parts: &[(State, &PathBuf)],
+    out: &Path,
+    name: &str,
+    header: &str,
+    length: impl Fn(&State) -> u64,
+) -> Result<(), RunError> {
     if parts.iter().all(|(s, _)| length(s) == 0) {
         return Ok(());
     }

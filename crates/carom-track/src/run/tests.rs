@@ -76,7 +76,9 @@ fn threads_shards_and_order_leave_no_trace() {
         reversed.reverse();
         assert_eq!(merge(&reversed, &at(&format!("merged-{of}"))).unwrap(), whole);
         assert_eq!(files(&at("one")), files(&at(&format!("merged-{of}"))));
-        assert!(merge(&folders[1..], &at("missing")).unwrap_err().to_string().contains(&format!("shard 1/{of} is missing")));
+        assert!(
+            merge(&folders[1..], &at("missing")).unwrap_err().to_string().contains(&format!("shard 1/{of} is missing"))
+        );
     }
 }
 
@@ -94,10 +96,14 @@ fn nothing_is_lost_and_nothing_invented() {
     assert_eq!(sum, s.injected.mass);
     let coarse = case.injections[1].injection.total_mass().unwrap();
     assert!((coarse - 1e-6).abs() < 1e-20);
-    let json: serde_json::Value = serde_json::from_slice(&fs::read(folder.path().join("summary.json")).unwrap()).unwrap();
+    let json: serde_json::Value =
+        serde_json::from_slice(&fs::read(folder.path().join("summary.json")).unwrap()).unwrap();
     assert_eq!(json["injected"], 5000);
     assert_eq!(json["fates"]["lost"], 0);
-    let named: u64 = ["captured", "settled", "trapped", "escaped", "airborne"].iter().map(|f| json["fates"][f].as_u64().unwrap()).sum();
+    let named: u64 = ["captured", "settled", "trapped", "escaped", "airborne"]
+        .iter()
+        .map(|f| json["fates"][f].as_u64().unwrap())
+        .sum();
     assert_eq!(named, 5000);
     let mut rows = csv::Reader::from_path(folder.path().join("impacts.csv")).unwrap();
     let mut last = (0u64, 0.0f64);
@@ -132,7 +138,8 @@ fn resuming_drops_torn_rows_and_goes_on() {
     let mut state = State::new(&case, Shard::WHOLE, 0..5);
     let mut lengths = [crate::block::IMPACTS_HEADER.len(), crate::block::TRAJECTORIES_HEADER.len()];
     for b in 0..2 {
-        let block = block::track(&case, b * block::SIZE..(b + 1) * block::SIZE, Wanted { impacts: true, trajectories: true });
+        let block =
+            block::track(&case, b * block::SIZE..(b + 1) * block::SIZE, Wanted { impacts: true, trajectories: true });
         state.summary.merge(&block.summary);
         lengths[0] += block.impacts.len();
         lengths[1] += block.trajectories.len();
@@ -152,7 +159,8 @@ fn resuming_drops_torn_rows_and_goes_on() {
 fn resuming_something_else_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     run(&case(), &options(folder.path(), 2), &Silent).unwrap();
-    let other = Case::from_toml(&CASE.replace("seed = 3", "seed = 4"), Path::new("case.toml"), &Library::builtin()).unwrap();
+    let other =
+        Case::from_toml(&CASE.replace("seed = 3", "seed = 4"), Path::new("case.toml"), &Library::builtin()).unwrap();
     let resume = RunOptions { resume: true, ..options(folder.path(), 2) };
     assert!(run(&other, &resume, &Silent).unwrap_err().to_string().contains("case file was changed"));
     let shard = RunOptions { shard: Some(Shard { index: 1, of: 2 }), ..resume };

@@ -1,12 +1,14 @@
 //! What happens at a wall.
 
+#![allow(clippy::needless_range_loop, reason = "one index runs through several arrays of lanes or components")]
+
 use super::lane::{Lane, points, trace};
 use super::{Behavior, Crew, Particle, Tracker, finish, motion_of};
 use crate::domain::{Domain, Hit};
 use crate::geometry::evaluate;
 use crate::record::{Event, Fate, ImpactRecord, Sink};
-use carom::{Energy, Fate as LawFate, Impact, WallLaw};
 use crate::vector::{Vec3, add, cross, dot, norm, scale, sub};
+use carom::{Energy, Fate as LawFate, Impact, WallLaw};
 
 /// Impacts in a row without any time between them after which a sphere is wedged between walls and stays.
 const WEDGED: u32 = 64;
@@ -121,7 +123,8 @@ impl<D: Domain> Tracker<'_, D> {
 /// approach, settled if not.
 fn at_rest(law: &WallLaw, impact: &Impact) -> Event {
     const SLOWEST: f64 = 1e-9;
-    let approaching = Impact { velocity: sub(impact.wall_velocity, scale(impact.normal, SLOWEST)), spin: [0.0; 3], ..*impact };
+    let approaching =
+        Impact { velocity: sub(impact.wall_velocity, scale(impact.normal, SLOWEST)), spin: [0.0; 3], ..*impact };
     match law.impact(&approaching) {
         Ok(out) if out.fate == LawFate::Capture => Event::Capture,
         _ => Event::Settle,
