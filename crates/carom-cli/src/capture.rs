@@ -3,8 +3,8 @@
 use crate::failure::Failure;
 use crate::figures::Figures;
 use crate::grid::{Grid, GridArgs, Over, Swept};
-use crate::motion::{ImpactArgs, MotionArgs};
 use crate::law::LawArgs;
+use crate::motion::{ImpactArgs, MotionArgs};
 use crate::output;
 use crate::text::Lines;
 use carom_report::{Axis, Column, Plot, Table};

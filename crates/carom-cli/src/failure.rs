@@ -4,7 +4,7 @@ use carom::SpecError;
 use carom_report::ReportError;
 use clap::error::ErrorKind;
 use miette::{LabeledSpan, MietteDiagnostic, NamedSource};
-use std::io;
+use std::io::{self, Write as _};
 use std::process::ExitCode;
 
 /// Why the command stops.
@@ -29,7 +29,8 @@ impl Failure {
     /// A mistake in the text of a file; without a place it is shown in a line.
     pub fn in_file(error: SpecError, name: &str, text: &str) -> Self {
         let Some(span) = error.span.clone() else { return Self::Input(format!("{name}: {error}")) };
-        let mut diagnostic = MietteDiagnostic::new(error.message).with_label(LabeledSpan::underline(first_line(span, text)));
+        let mut diagnostic =
+            MietteDiagnostic::new(error.message).with_label(LabeledSpan::underline(first_line(span, text)));
         if let Some(help) = error.help {
             diagnostic = diagnostic.with_help(help);
         }
@@ -45,7 +46,7 @@ impl Failure {
                 ExitCode::from(2)
             }
             Self::InFile(report) => {
-                eprintln!("{report:?}");
+                say(&format!("{report:?}"));
                 ExitCode::from(2)
             }
             Self::Other(message) => {
@@ -57,9 +58,13 @@ impl Failure {
     }
 }
 
+/// A line on standard error; when that is closed too, nothing is left to do.
+pub fn say(line: &str) {
+    let _ = writeln!(io::stderr(), "{line}");
+}
+
 /// Through clap, so that all errors in a line look alike and know whether the terminal takes colours.
 fn show(message: &str) {
-    // nothing is left to do when standard error is closed too
     let _ = clap::Error::raw(ErrorKind::ValueValidation, format!("{message}\n")).print();
 }
 
@@ -100,8 +105,14 @@ pub fn of_file(name: &str, error: &io::Error) -> Failure {
     // the number says nothing to the reader
     let message = format!("{name}: {}", text.split(" (os error").next().unwrap_or(&text));
     match error.kind() {
-        K::NotFound | K::PermissionDenied | K::NotADirectory | K::IsADirectory | K::InvalidData | K::InvalidInput
-        | K::InvalidFilename | K::ReadOnlyFilesystem => Failure::Input(message),
+        K::NotFound
+        | K::PermissionDenied
+        | K::NotADirectory
+        | K::IsADirectory
+        | K::InvalidData
+        | K::InvalidInput
+        | K::InvalidFilename
+        | K::ReadOnlyFilesystem => Failure::Input(message),
         _ => Failure::Other(message),
     }
 }

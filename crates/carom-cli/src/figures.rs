@@ -41,7 +41,7 @@ pub struct Pair {
 impl Figures {
     /// The figures for a diameter in m.
     pub fn new(wall: &WallLaw, diameter: f64) -> Result<Self, Failure> {
-        let refused = |e: carom::ImpactError| Failure::input(format!("--diameter {diameter}: {e}"));
+        let refused = |e: carom::ImpactError| Failure::input(format!("--diameter {}: {e}", scaled(diameter, "m")));
         let window = wall.window(diameter, None).map_err(refused)?;
         let numbers = wall.adhesion_numbers(diameter).map_err(refused)?;
         Ok(Self {
@@ -85,7 +85,10 @@ impl Figures {
             Some(v) => lines.add("capture velocity", quantity(v, "m/s")),
         }
         if let Some(v) = self.exhausted_velocity {
-            lines.add("exhausted above", format!("{} (damping takes everything: the end of the model)", quantity(v, "m/s")));
+            lines.add(
+                "exhausted above",
+                format!("{} (damping takes everything: the end of the model)", quantity(v, "m/s")),
+            );
         }
         if let Some(v) = self.yield_velocity {
             lines.add("yield velocity", quantity(v, "m/s"));

@@ -8,7 +8,7 @@ use crate::values;
 use carom::error::did_you_mean;
 use carom::math;
 use carom_report::plot::Dash;
-use carom_report::{Axis, Color, Column, Plot, Series, Table};
+use carom_report::{Axis, Color, Column, Plot, Series, Table, Values};
 use clap::{Args as _, FromArgMatches as _};
 use std::path::PathBuf;
 
@@ -71,7 +71,11 @@ impl std::str::FromStr for Over {
         })?;
         let (from, to) = range.split_once("..").ok_or(form)?;
         let (from, to) = (quantity.read(&with_unit(from, to))?, quantity.read(to)?);
-        if from < to { Ok(Self { quantity, from, to }) } else { Err(format!("the range '{range}' does not rise; {form}")) }
+        if from < to {
+            Ok(Self { quantity, from, to })
+        } else {
+            Err(format!("the range '{range}' does not rise; {form}"))
+        }
     }
 }
 
@@ -92,7 +96,11 @@ impl Over {
         let last = count - 1;
         let between = |i: usize| {
             let share = i as f64 / last as f64;
-            if linear { self.from + share * (self.to - self.from) } else { self.from * math::pow(self.to / self.from, share) }
+            if linear {
+                self.from + share * (self.to - self.from)
+            } else {
+                self.from * math::pow(self.to / self.from, share)
+            }
         };
         (0..count)
             .map(|i| match i {
@@ -211,7 +219,10 @@ impl GridArgs {
         }
         let count = self.points as usize;
         if curves.len().saturating_mul(count) > MOST {
-            return Err(Failure::input(format!("{} curves of {count} points are too many rows; at most {MOST}", curves.len())));
+            return Err(Failure::input(format!(
+                "{} curves of {count} points are too many rows; at most {MOST}",
+                curves.len()
+            )));
         }
         let points = over.points(count, self.is_linear(over));
         Ok(Grid { args: self, over, points, curves })
@@ -226,9 +237,9 @@ impl Curve {
     fn vary(&self, by: &By, value: &str, place: usize) -> Result<Self, Failure> {
         let mut args = self.args.clone();
         if by.key == "pair" {
-            let (sphere, surface) = value
-                .split_once('/')
-                .ok_or_else(|| Failure::input(format!("--by pair={value}: SPHERE/SURFACE is wanted, such as copper/glass")))?;
+            let (sphere, surface) = value.split_once('/').ok_or_else(|| {
+                Failure::input(format!("--by pair={value}: SPHERE/SURFACE is wanted, such as copper/glass"))
+            })?;
             set(&mut args, "sphere", sphere.trim())?;
             set(&mut args, "surface", surface.trim())?;
         } else {
@@ -258,7 +269,9 @@ fn set(args: &mut ImpactArgs, key: &str, value: &str) -> Result<(), Failure> {
     let flags: Vec<String> = command.get_arguments().filter_map(|a| a.get_long()).map(str::to_owned).collect();
     if !flags.iter().any(|f| f == key) || key == "materials" {
         let near = did_you_mean(key, flags.iter().map(String::as_str)).map_or(String::new(), |n| format!("{n} "));
-        return Err(Failure::input(format!("--by {key}: no such flag; {near}any flag of the law or the impact will do, or pair")));
+        return Err(Failure::input(format!(
+            "--by {key}: no such flag; {near}any flag of the law or the impact will do, or pair"
+        )));
     }
     let matches = command.try_get_matches_from([format!("--{key}={value}")]);
     matches.and_then(|m| args.update_from_arg_matches(&m)).map_err(|e| {
@@ -289,7 +302,8 @@ impl Grid<'_> {
             if by.values.iter().all(|v| v.parse::<f64>().is_ok()) {
                 columns.push(Column::float(name, "", each(&|c| c.values[n].parse().unwrap_or(f64::NAN))));
             } else {
-                let texts = self.curves.iter().flat_map(|c| std::iter::repeat_n(c.values[n].as_str(), self.points.len()));
+                let texts =
+                    self.curves.iter().flat_map(|c| std::iter::repeat_n(c.values[n].as_str(), self.points.len()));
                 columns.push(Column::text(name, texts));
             }
         }
@@ -356,11 +370,17 @@ impl Grid<'_> {
         if self.args.json {
             output::print(&whole()?.to_json()?)
         } else if !files.any() {
-            output::print(&short()?.to_text())
+            output::print(&telling(short()?)?.to_text())
         } else {
             Ok(())
         }
     }
+}
+
+/// Without the columns that have no value at all.
+fn telling(table: Table) -> Result<Table, Failure> {
+    let empty = |c: &&Column| matches!(&c.values, Values::Float(v) if v.iter().all(|x| x.is_nan()));
+    Ok(Table::new(table.columns().iter().filter(|c| !empty(c)).cloned())?)
 }
 
 #[cfg(test)]
@@ -405,7 +425,9 @@ mod tests {
         args.motion.speed = Some(3.0);
         set(&mut args, "diameter", "10um").expect("a diameter");
         assert_eq!((args.motion.diameter, args.motion.speed), (Some(1e-5), Some(3.0)));
-        assert!(matches!(set(&mut args, "diamter", "1"), Err(Failure::Input(m)) if m.contains("did you mean diameter?")));
+        assert!(
+            matches!(set(&mut args, "diamter", "1"), Err(Failure::Input(m)) if m.contains("did you mean diameter?"))
+        );
         assert!(matches!(set(&mut args, "friction", "x"), Err(Failure::Input(m)) if m.contains("no number here")));
     }
 }

@@ -53,9 +53,13 @@ pub fn plot(moments: &[Moment], law: &Law, motion: &Motion) -> Plot {
     let line = |label: &str, get: fn(&Moment) -> f64| {
         Series::line(label, moments.iter().map(|m| m.time), moments.iter().map(get))
     };
-    Plot::new(title, Axis::scaled("time", time, time_factor), Axis::scaled("force away from the wall", force, force_factor))
-        .with(line("net force", |m| m.net_force))
-        .with(line("Hertz force", |m| m.hertz_force).dashed())
+    Plot::new(
+        title,
+        Axis::scaled("time", time, time_factor),
+        Axis::scaled("force away from the wall", force, force_factor),
+    )
+    .with(line("net force", |m| m.net_force))
+    .with(line("Hertz force", |m| m.hertz_force).dashed())
 }
 
 /// A unit whose prefix suits `largest`, and its factor.

@@ -186,10 +186,10 @@ fn before_and_after(answer: &Answer, motion: &Motion, met: &Met) -> String {
     rows.iter().map(|[a, b, c]| format!("{}\n", format!("{a:first$}  {b:second$}  {c}").trim_end())).collect()
 }
 
-/// The shares of the energy that are not zero, what is kept first.
+/// The shares of the energy that are more than rounding, what is kept first.
 fn shares(met: &Met) -> String {
     let mut named = met.outcome.energy.named();
     named.rotate_right(1);
-    let shares = named.into_iter().filter(|(_, share)| *share != 0.0);
+    let shares = named.into_iter().filter(|(_, share)| *share > 1e-9);
     shares.map(|(name, share)| format!("{} {}", name.replace('_', " "), percent(share))).collect::<Vec<_>>().join(", ")
 }

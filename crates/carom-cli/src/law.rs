@@ -54,7 +54,7 @@ pub struct LawArgs {
     #[arg(long, value_name = "LAW", help_heading = "Normal law", value_parser = values::normal_law)]
     law: Option<NormalSpec>,
     /// Restitution of the constant law, or a curve for by-angle: grant-tabakoff, or '{ polynomial = [...] }'
-    #[arg(long, value_name = "E", help_heading = "Normal law", value_parser = values::curve)]
+    #[arg(long, value_name = "E", help_heading = "Normal law", value_parser = values::restitution)]
     restitution: Option<CurveSpec>,
     /// Damping of the adhesion force, C_A, s/m
     #[arg(long, value_name = "C_A", help_heading = "Normal law")]
@@ -85,7 +85,7 @@ pub struct LawArgs {
     #[arg(long, value_name = "BETA", help_heading = "Tangential law")]
     walton_beta: Option<Number>,
     /// Tangential restitution, or a curve by angle such as grant-tabakoff
-    #[arg(long, value_name = "E_T", help_heading = "Tangential law", value_parser = values::curve)]
+    #[arg(long, value_name = "E_T", help_heading = "Tangential law", value_parser = values::tangential_restitution)]
     tangential_restitution: Option<CurveSpec>,
 
     /// Factor C_R on the adhesion force, above 0 and up to 1 [default: 1]
@@ -158,6 +158,11 @@ impl LawArgs {
             equilibrium_spacing = equilibrium_spacing, work_of_adhesion = work_of_adhesion, stiffness = stiffness,
             plastic_constant = plastic_constant,
         }
+        for (body, material) in [("sphere", &mut spec.sphere), ("surface", &mut spec.surface)] {
+            if let Some(At { value: MaterialRef::Inline(inline), .. }) = material {
+                inline.name = format!("given {body}");
+            }
+        }
         Ok((spec, source))
     }
 
@@ -214,12 +219,12 @@ impl Law {
 
     /// The sphere's material.
     pub fn sphere(&self) -> Option<String> {
-        self.wall.pair().map(|p| named(p.sphere(), "given sphere"))
+        self.wall.pair().map(|p| p.sphere().name.clone())
     }
 
     /// The surface's material.
     pub fn surface(&self) -> Option<String> {
-        self.wall.pair().map(|p| named(p.surface(), "given surface"))
+        self.wall.pair().map(|p| p.surface().name.clone())
     }
 
     /// The normal law's name, or its losses.
@@ -230,9 +235,4 @@ impl Law {
             None => String::new(),
         }
     }
-}
-
-/// A material's name; one given by its properties has none.
-fn named(material: &carom::material::Material, otherwise: &str) -> String {
-    if material.name == "inline" { otherwise.to_owned() } else { material.name.clone() }
 }

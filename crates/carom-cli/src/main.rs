@@ -25,8 +25,9 @@ fn main() -> ExitCode {
     // the only hook: it cannot have been set before
     drop(reports);
     // a value may begin with a sign: --spin -100rad/s
-    let command = cli::Cli::command()
-        .mut_subcommands(|sub| sub.mut_args(|arg| if takes_quantity(&arg) { arg.allow_hyphen_values(true) } else { arg }));
+    let command = cli::Cli::command().mut_subcommands(|sub| {
+        sub.mut_args(|arg| if takes_quantity(&arg) { arg.allow_hyphen_values(true) } else { arg })
+    });
     let parsed = command.try_get_matches().and_then(|m| cli::Cli::from_arg_matches(&m));
     match parsed {
         Ok(cli) => cli.run().map_or_else(failure::Failure::report, |()| ExitCode::SUCCESS),

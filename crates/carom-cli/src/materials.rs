@@ -115,7 +115,13 @@ fn value(kind: PropertyKind, p: &Property) -> Value<'_> {
         alternatives: p
             .alternatives
             .iter()
-            .map(|a| Other { value: a.value, low: a.low, high: a.high, source: a.source.as_deref(), note: a.note.as_deref() })
+            .map(|a| Other {
+                value: a.value,
+                low: a.low,
+                high: a.high,
+                source: a.source.as_deref(),
+                note: a.note.as_deref(),
+            })
             .collect(),
     }
 }
@@ -131,6 +137,7 @@ fn list(materials: Vec<&Material>) -> Result<String, Failure> {
         column("nu", "", 1.0, |m| m.poisson_ratio),
         column("gamma", "J/m2", 1.0, |m| m.surface_energy),
         column("sigma", "MPa", 1e6, |m| m.yield_strength),
+        Column::text("also", materials.iter().map(|m| m.aliases.first().map_or("", String::as_str))),
     ])?;
     Ok(table.to_text())
 }

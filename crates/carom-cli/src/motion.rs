@@ -2,6 +2,7 @@
 
 use crate::failure::Failure;
 use crate::law::{Law, LawArgs};
+use crate::text::scaled;
 use crate::values;
 use carom::{Fate, Impact, ImpactError, Outcome, WallLaw};
 
@@ -49,7 +50,9 @@ impl MotionArgs {
     pub fn complete(&self) -> Result<Motion, Failure> {
         Ok(Motion {
             diameter: self.wanted_diameter()?,
-            speed: self.speed.ok_or_else(|| Failure::input("--speed is missing; give the speed of approach, such as --speed 2m/s"))?,
+            speed: self.speed.ok_or_else(|| {
+                Failure::input("--speed is missing; give the speed of approach, such as --speed 2m/s")
+            })?,
             angle: self.angle.unwrap_or(90.0),
             spin: self.spin.unwrap_or(0.0),
         })
@@ -57,7 +60,8 @@ impl MotionArgs {
 
     /// The diameter alone.
     pub fn wanted_diameter(&self) -> Result<f64, Failure> {
-        self.diameter.ok_or_else(|| Failure::input("--diameter is missing; give the sphere's diameter, such as --diameter 90um"))
+        self.diameter
+            .ok_or_else(|| Failure::input("--diameter is missing; give the sphere's diameter, such as --diameter 90um"))
     }
 
     /// Does friction act: is there a tangential speed or a spin?
@@ -128,7 +132,7 @@ pub fn refused(error: ImpactError, motion: &Motion) -> Failure {
     let Motion { diameter, speed, angle, spin } = *motion;
     let what = match error {
         ImpactError::NotApproaching => format!("--speed {speed} at --angle {angle}"),
-        ImpactError::Curvature | ImpactError::Diameter => format!("--diameter {diameter}"),
+        ImpactError::Curvature | ImpactError::Diameter => format!("--diameter {}", scaled(diameter, "m")),
         ImpactError::NotFinite => format!("--speed {speed}, --spin {spin}"),
         ImpactError::Density => "the sphere's density".to_owned(),
     };

@@ -1,6 +1,6 @@
 //! Standard output and the files a command writes: checked before anything is computed, whole or not there at all.
 
-use crate::failure::{Failure, of_file};
+use crate::failure::{Failure, of_file, say};
 use carom_report::plot::ImageFormat;
 use carom_report::{Format, Plot, Table};
 use std::io::{self, Write as _};
@@ -47,7 +47,11 @@ impl<'a> Files<'a> {
     }
 
     /// Writes them and says so on standard error. If the second fails, the first is taken away again.
-    pub fn write(&self, table: impl FnOnce() -> Result<Table, Failure>, plot: impl FnOnce() -> Plot) -> Result<(), Failure> {
+    pub fn write(
+        &self,
+        table: impl FnOnce() -> Result<Table, Failure>,
+        plot: impl FnOnce() -> Plot,
+    ) -> Result<(), Failure> {
         if let Some(path) = self.table {
             table()?.write(path)?;
         }
@@ -60,7 +64,7 @@ impl<'a> Files<'a> {
             })?;
         }
         for path in [self.table, self.plot].into_iter().flatten() {
-            eprintln!("wrote {}", path.display());
+            say(&format!("wrote {}", path.display()));
         }
         Ok(())
     }

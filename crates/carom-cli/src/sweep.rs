@@ -82,12 +82,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         laws.push(law);
     }
     let oblique = grid.quantity() == Swept::Angle || grid.curves.iter().any(|c| c.args.motion.is_oblique());
-    grid.show(
-        &files,
-        || whole(&grid, &met),
-        || short(&grid, &met, oblique),
-        || plot(&grid, &met, &laws, args.quantity),
-    )
+    grid.show(&files, || whole(&grid, &met), || short(&grid, &met, oblique), || plot(&grid, &met, &laws, args.quantity))
 }
 
 fn float(name: &str, unit: &str, met: &[Met], get: impl Fn(&Met) -> f64) -> Column {
@@ -188,5 +183,10 @@ fn references(grid: &Grid, laws: &[Law], shown: Shown) -> Vec<Reference> {
     };
     let capture = law.wall.window(diameter, None).ok().flatten().map(|w| (w.capture_velocity, "capture velocity"));
     let yielding = law.wall.yield_velocity(diameter, None).ok().flatten().map(|v| (v, "yield velocity"));
-    [capture, yielding].into_iter().flatten().filter(|(v, _)| *v > 0.0).map(|(v, l)| Reference::vertical(v, l)).collect()
+    [capture, yielding]
+        .into_iter()
+        .flatten()
+        .filter(|(v, _)| *v > 0.0)
+        .map(|(v, l)| Reference::vertical(v, l))
+        .collect()
 }

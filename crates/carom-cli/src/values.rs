@@ -42,7 +42,7 @@ struct Inline {
 }
 
 /// A number, the name of a curve, or a curve in the law file's form.
-pub fn curve(text: &str) -> Result<CurveSpec, String> {
+fn curve(text: &str) -> Result<CurveSpec, String> {
     let text = text.trim();
     if text.starts_with('{') {
         let read: Result<Inline, _> = toml::from_str(&format!("curve = {text}"));
@@ -54,6 +54,25 @@ pub fn curve(text: &str) -> Result<CurveSpec, String> {
     Ok(CurveSpec::Named(text.to_owned()))
 }
 
+/// The normal restitution: a number from 0 to 1, or a curve.
+pub fn restitution(text: &str) -> Result<CurveSpec, String> {
+    curve_within(text, 0.0)
+}
+
+/// The tangential restitution: a number from -1 to 1, or a curve.
+pub fn tangential_restitution(text: &str) -> Result<CurveSpec, String> {
+    curve_within(text, -1.0)
+}
+
+fn curve_within(text: &str, low: f64) -> Result<CurveSpec, String> {
+    match curve(text)? {
+        CurveSpec::Constant(value) if !(low..=1.0).contains(&value) => {
+            Err(format!("{text} is out of range; it lies between {low} and 1"))
+        }
+        curve => Ok(curve),
+    }
+}
+
 /// A radius of curvature.
 pub fn curvature(text: &str) -> Result<CurvatureRadius, String> {
     text.parse().map_err(|e: carom::units::UnitError| e.to_string())
@@ -62,13 +81,13 @@ pub fn curvature(text: &str) -> Result<CurvatureRadius, String> {
 /// A speed of approach, m/s.
 pub fn speed(text: &str) -> Result<f64, String> {
     let Speed(value) = text.parse().map_err(|e: carom::units::UnitError| e.to_string())?;
-    within(value, value > 0.0 && value < 1e9, "m/s", "a speed lies above 0 and below 1e9 m/s")
+    within(text, value, value > 0.0 && value < 1e9, "a speed lies above 0 and below 1e9 m/s")
 }
 
 /// A diameter, m.
 pub fn diameter(text: &str) -> Result<f64, String> {
     let Length(value) = text.parse().map_err(|e: carom::units::UnitError| e.to_string())?;
-    within(value, (1e-10..=10.0).contains(&value), "m", "a diameter lies between 1e-10 m and 10 m, such as 90um")
+    within(text, value, (1e-10..=10.0).contains(&value), "a diameter lies between 1e-10 m and 10 m, such as 90um")
 }
 
 /// An angle from the surface: degrees, unless a unit is written.
@@ -80,9 +99,9 @@ pub fn angle(text: &str) -> Result<f64, String> {
         Err(_) => text.parse::<Angle>().map_err(|e| e.to_string())?.0.to_degrees(),
     };
     within(
+        text,
         degrees,
         degrees > 0.0 && degrees <= 90.0,
-        "deg",
         "an angle is measured from the surface, above 0 and up to 90 degrees (head-on)",
     )
 }
@@ -90,11 +109,11 @@ pub fn angle(text: &str) -> Result<f64, String> {
 /// A spin, rad/s.
 pub fn spin(text: &str) -> Result<f64, String> {
     let AngularVelocity(value) = text.parse().map_err(|e: carom::units::UnitError| e.to_string())?;
-    within(value, value.abs() < 1e100, "rad/s", "a spin lies below 1e100 rad/s")
+    within(text, value, value.abs() < 1e100, "a spin lies below 1e100 rad/s")
 }
 
-fn within(value: f64, fits: bool, unit: &str, right: &str) -> Result<f64, String> {
-    if fits { Ok(value) } else { Err(format!("{value} {unit} is out of range; {right}")) }
+fn within(text: &str, value: f64, fits: bool, right: &str) -> Result<f64, String> {
+    if fits { Ok(value) } else { Err(format!("{text} is out of range; {right}")) }
 }
 
 #[cfg(test)]

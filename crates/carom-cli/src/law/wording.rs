@@ -45,6 +45,7 @@ pub fn as_flags(error: &SpecError) -> String {
     for (key, flag) in WORDS {
         text = replace_word(&text, &format!("{key} = "), &format!("--{flag} "));
     }
+    text = text.replace("leave the key out", "leave it out");
     text.replace("[\"", "").replace("\"]", "").replace('"', "")
 }
 
@@ -77,10 +78,16 @@ mod tests {
             "the law needs a friction coefficient for oblique impacts; give --friction 0.2, say"
         );
         assert_eq!(
-            said("tangential_restitution has no effect with tangential = \"rolling\"", "write tangential = \"constant\""),
+            said(
+                "tangential_restitution has no effect with tangential = \"rolling\"",
+                "write tangential = \"constant\""
+            ),
             "--tangential-restitution has no effect with --tangential rolling; write --tangential constant"
         );
-        assert_eq!(said("both roughness_factor and roughness", "keep one"), "both --roughness-factor and roughness; keep one");
+        assert_eq!(
+            said("both roughness_factor and roughness", "keep one"),
+            "both --roughness-factor and roughness; keep one"
+        );
         assert_eq!(
             said("the law needs Tabor's fitted yield velocity", "give yield_velocity = \"0.09 m/s\""),
             "the law needs Tabor's fitted yield velocity; give --yield-velocity 0.09 m/s"
