@@ -1,0 +1,92 @@
+//! Spheres in a closed box for 50 ms: Schiller–Naumann drag, gravity, about six wall hits each.
+//!
+//! Reported per particle; a fiftieth of it is the time per particle and millisecond.
+
+use carom_track::domain::{Analytic, ContactAt, Wall};
+use carom_track::dynamics::Dynamics;
+use carom_track::flow::{Flow, Fluid};
+use carom_track::force::{Drag, Forces};
+use carom_track::geometry::{Room, Shape};
+use carom_track::random::{Purpose, Stream};
+use carom_track::record::{End, ImpactRecord, Sink};
+use carom_track::tracker::{Behavior, Particle, SettleHeight, Settings, Tracker};
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+
+const PARTICLES: u64 = 4096;
+
+#[derive(Default)]
+struct Count {
+    impacts: u64,
+    ends: u64,
+    steps: u64,
+}
+
+impl Sink for Count {
+    fn start(&mut self, _: &Particle) -> bool {
+        false
+    }
+    fn impact(&mut self, _: &ImpactRecord) {
+        self.impacts += 1;
+    }
+    fn point(&mut self, _: u64, _: f64, _: [f64; 3], _: [f64; 3], _: [f64; 3]) {}
+    fn end(&mut self, end: &End) {
+        self.ends += 1;
+        self.steps += end.steps;
+    }
+}
+
+fn particle(number: u64) -> Particle {
+    let mut draws = Stream::new(1, number, Purpose::Injection, 0);
+    let place: [f64; 3] = draws.uniforms();
+    let way: [f64; 3] = draws.uniforms();
+    Particle {
+        number,
+        injection: 0,
+        diameter: (60.0 + 60.0 * draws.uniform()) * 1e-6,
+        density: 2500.0,
+        weight: 1.0,
+        time: 0.0,
+        position: place.map(|u| 1e-3 + 18e-3 * u),
+        velocity: way.map(|u| 8.0 * u - 4.0),
+        spin: [0.0; 3],
+    }
+}
+
+fn closed_box(c: &mut Criterion) {
+    let room = Shape::Room(Room { min: [0.0; 3], max: [0.02; 3] });
+    let wall = Wall { name: "box".into(), shape: room, contact_at: ContactAt::Surface, velocity: [0.0; 3] };
+    let domain = Analytic::new(Flow::Still, vec![wall]);
+    let law = "normal = \"constant\"\nrestitution = 0.95\ntangential = \"constant\"\ntangential_restitution = 0.95\n";
+    let law = carom::spec::parse_law(law).expect("a law").compile(&carom::material::Library::builtin()).expect("a law");
+    let behaviors = [Behavior::Law(vec![law])];
+    let forces = Forces { drag: Drag::SchillerNaumann, ..Forces::default() };
+    let dynamics = Dynamics { fluid: Fluid::default(), forces, random_walk: None, brownian: false };
+    let settings = Settings { tolerance: 1e-5, until: 0.05, settle_height: SettleHeight::DEFAULT, max_steps: 1_000_000, seed: 1 };
+    let tracker = Tracker { domain: &domain, dynamics: &dynamics, behaviors: &behaviors, settings };
+    let particles: Vec<Particle> = (0..PARTICLES).map(particle).collect();
+    let mut count = Count::default();
+    tracker.run(&mut particles.iter().copied(), &mut count);
+    let each = |n: u64| n as f64 / count.ends as f64;
+    println!("{:.2} hits and {:.2} steps per particle", each(count.impacts), each(count.steps));
+    let mut group = c.benchmark_group("closed box, 50 ms");
+    group.throughput(Throughput::Elements(PARTICLES));
+    group.bench_function("widest instructions", |b| {
+        b.iter(|| {
+            let mut count = Count::default();
+            tracker.run(&mut particles.iter().copied(), &mut count);
+            count.impacts
+        })
+    });
+    group.sample_size(10);
+    group.bench_function("plain", |b| {
+        b.iter(|| {
+            let mut count = Count::default();
+            tracker.run_plain(&mut particles.iter().copied(), &mut count);
+            count.impacts
+        })
+    });
+    group.finish();
+}
+
+criterion_group!(benches, closed_box);
+criterion_main!(benches);

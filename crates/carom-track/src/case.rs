@@ -1,0 +1,204 @@
+//! The case file: what to track, in what, between which walls.
+//!
+//! Read with places, so that every error points at the line: unknown keys, wrong units, unknown laws and materials (with
+//! the nearest known one), walls that contradict each other, injections inside a wall, a run that nothing would end.
+
+mod check;
+mod flow;
+mod injection;
+mod text;
+mod wall;
+
+pub use injection::Injected;
+
+use crate::domain::{Analytic, Wall};
+use crate::dynamics::Dynamics;
+use crate::injection::Start;
+use crate::tracker::{Behavior, Particle, SettleHeight, Settings, Tracker};
+use carom::SpecError;
+use carom::material::Library;
+use check::{positive, wrong};
+use std::path::{Path, PathBuf};
+use text::{CaseText, RunText};
+
+/// What is wrong in a case file, where, and what would be right.
+pub type CaseError = SpecError;
+
+/// A checked case, ready to run.
+#[derive(Debug)]
+pub struct Case {
+    /// Its title.
+    pub title: String,
+    /// The file it came from.
+    pub name: PathBuf,
+    /// Flow and walls.
+    pub domain: Analytic,
+    /// What acts on the spheres.
+    pub dynamics: Dynamics,
+    /// What each wall does.
+    pub behaviors: Vec<Behavior>,
+    /// The injections, in the order of particle numbers.
+    pub injections: Vec<Injected>,
+    /// How it is tracked.
+    pub settings: Settings,
+    /// How many particles' trajectories are recorded.
+    pub trajectories: u64,
+    /// Whether impacts are recorded.
+    pub impacts: bool,
+    /// A number that tells this case from others, for resuming.
+    pub fingerprint: u64,
+}
+
+/// Trajectories recorded unless the case says otherwise: as many lines as a plot bears.
+const TRAJECTORIES: u64 = 100;
+const TOLERANCE: f64 = 1e-5;
+const MAX_STEPS: u64 = 10_000_000;
+
+impl Case {
+    /// Reads a case. Files it names are looked for beside `name`; materials come from `library`.
+    ///
+    /// # Errors
+    /// What is wrong, with its place in `text` ([`CaseError::located`] puts the line in front).
+    pub fn from_toml(text: &str, name: &Path, library: &Library) -> Result<Self, CaseError> {
+        let read: CaseText = toml::from_str(text)?;
+        let folder = name.parent().unwrap_or(Path::new(""));
+        let seed = read.seed.unwrap_or(1);
+        let fluid = flow::fluid(read.fluid.as_ref())?;
+        let flow = flow::flow(read.flow.as_ref(), &fluid, folder)?;
+        let dynamics = flow::dynamics(&read.forces, fluid)?;
+        let injections = read
+            .injection
+            .iter()
+            .enumerate()
+            .map(|(i, at)| injection::read(at, i, seed, &fluid, library))
+            .collect::<Result<Vec<_>, _>>()?;
+        if injections.is_empty() {
+            return Err(SpecError::new("the case injects nothing").help("add an [[injection]]"));
+        }
+        injection::distinct(read.injection.iter().filter_map(|i| i.value.name.as_ref()), "injection")?;
+        injection::distinct(read.wall.iter().map(|w| &w.value.name), "wall")?;
+        let walls = read.wall.iter().map(wall::read).collect::<Result<Vec<_>, _>>()?;
+        let largest = injections.iter().map(|i| i.largest).fold(0.0, f64::max);
+        wall::contradictions(&read.wall, &walls, largest)?;
+        let behaviors = read
+            .wall
+            .iter()
+            .map(|at| wall::behavior(at, &read.law, &injections, library))
+            .collect::<Result<Vec<_>, _>>()?;
+        unused_laws(&read, library)?;
+        let settings = settings(&read, seed, &behaviors)?;
+        injected_in_the_fluid(&walls, &injections, &behaviors)?;
+        let output = read.output;
+        Ok(Self {
+            title: read.title.unwrap_or_default(),
+            name: name.to_owned(),
+            domain: Analytic::new(flow, walls),
+            dynamics,
+            behaviors,
+            injections,
+            settings,
+            trajectories: output.trajectories.map_or(TRAJECTORIES, |t| t.value),
+            impacts: output.impacts.unwrap_or(true),
+            fingerprint: fingerprint(text),
+        })
+    }
+
+    /// How many particles it injects.
+    pub fn count(&self) -> u64 {
+        self.injections.iter().map(|i| i.injection.count()).sum()
+    }
+
+    /// The tracker of this case.
+    pub fn tracker(&self) -> Tracker<'_, Analytic> {
+        Tracker { domain: &self.domain, dynamics: &self.dynamics, behaviors: &self.behaviors, settings: self.settings }
+    }
+
+    /// The particle of a number below [`Case::count`].
+    pub fn particle(&self, number: u64) -> Option<Particle> {
+        use crate::domain::Domain;
+        let mut first = 0;
+        for (index, injected) in self.injections.iter().enumerate() {
+            let count = injected.injection.count();
+            if number < first + count {
+                let start = injected.injection.particle(number - first, |x| self.domain.fluid(x).velocity);
+                return Some(Particle::new(number, index, &start));
+            }
+            first += count;
+        }
+        None
+    }
+}
+
+/// Laws that no wall uses must be right too.
+fn unused_laws(read: &CaseText, library: &Library) -> Result<(), SpecError> {
+    for (name, law) in &read.law {
+        if wall::WORDS.contains(&name.as_str()) {
+            let message = format!("a law may not be called '{name}'");
+            return Err(wrong(law, message).help("that word has its own meaning at a wall"));
+        }
+        let used = read.wall.iter().any(|w| w.value.law.value == *name);
+        if !used && law.value.sphere.is_some() {
+            law.value.compile(library).map_err(|e| e.at(law.span.clone()))?;
+        }
+    }
+    Ok(())
+}
+
+fn settings(read: &CaseText, seed: u64, behaviors: &[Behavior]) -> Result<Settings, SpecError> {
+    let default = RunText::default();
+    let run = read.run.as_ref().map_or(&default, |r| &r.value);
+    let until = run.until.as_ref().map(|u| positive(u, "until", u.value.0)).transpose()?;
+    let way_out = behaviors.iter().any(|b| !matches!(b, Behavior::Law(_)));
+    if until.is_none() && !way_out {
+        let error = SpecError::new("nothing ends this run: neither until nor a wall that traps or lets escape");
+        return Err(error.help("give until = \"2 s\" in [run]").at(read.run.as_ref().and_then(|r| r.span.clone())));
+    }
+    let tolerance = match &run.tolerance {
+        None => TOLERANCE,
+        Some(t) if t.value.0 >= 1e-12 && t.value.0 <= 1e-2 => t.value.0,
+        Some(t) => return Err(wrong(t, format!("tolerance is {}", t.value.0)).help("it lies between 1e-12 and 1e-2")),
+    };
+    let settle_height = match &run.settle_height {
+        None => SettleHeight::DEFAULT,
+        Some(h) => SettleHeight::Length(positive(h, "settle_height", h.value.0)?),
+    };
+    let max_steps = run.max_steps.as_ref().map_or(MAX_STEPS, |m| m.value.max(1));
+    Ok(Settings { tolerance, until: until.unwrap_or(f64::INFINITY), settle_height, max_steps, seed })
+}
+
+/// No sphere may start inside a wall.
+fn injected_in_the_fluid(walls: &[Wall], injections: &[Injected], behaviors: &[Behavior]) -> Result<(), SpecError> {
+    for injected in injections {
+        let plan = injected.injection.plan();
+        for x in injection::hull(&plan.source) {
+            for (wall, behavior) in walls.iter().zip(behaviors) {
+                let gap = wall.shape.distance(x) - wall.clearance(0.5 * injected.largest);
+                let touching = 1e-9 * injected.largest;
+                if gap < -touching {
+                    let what = if matches!(behavior, Behavior::Escape) { "beyond" } else { "inside" };
+                    let message = format!(
+                        "{} starts {what} wall '{}': at {x:?} m a sphere of {} m reaches {:.3e} m into it",
+                        injected.name, wall.name, injected.largest, -gap
+                    );
+                    return Err(SpecError::new(message)
+                        .help("a normal points out of the wall into the fluid; a sphere needs one radius of room")
+                        .at(injected.place.clone()));
+                }
+            }
+        }
+        if let Start::Velocity(v) = plan.velocity
+            && !v.iter().all(|c| c.abs() < 1e6)
+        {
+            return Err(SpecError::new(format!("{} starts at {v:?} m/s", injected.name)).help("below 1e6 m/s is wanted").at(injected.place.clone()));
+        }
+    }
+    Ok(())
+}
+
+/// FNV-1a of the text: enough to tell an edited case from the one that was interrupted.
+fn fingerprint(text: &str) -> u64 {
+    text.bytes().fold(0xcbf2_9ce4_8422_2325, |h, b| (h ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3))
+}
+
+#[cfg(test)]
+mod tests;

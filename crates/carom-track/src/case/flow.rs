@@ -1,0 +1,175 @@
+//! `[fluid]`, `[flow]` and `[forces]`.
+
+use super::check::{needed, placed, unknown, word, wrong};
+use super::text::{FlowText, FluidText, ForcesText, Si};
+use crate::dynamics::Dynamics;
+use crate::flow::{Channel, Flow, Fluid, Pipe, Profile, RoundJet, SlotJet, Stagnation, Symmetry, Table};
+use crate::force::random_walk::Life;
+use crate::force::{Drag, Forces, NearWall, RandomWalk, Slip};
+use carom::SpecError;
+use carom::spec::At;
+use std::path::Path;
+
+const ATMOSPHERE: f64 = 101_325.0;
+
+/// Air at 24 °C where nothing else is said.
+pub(super) fn fluid(text: Option<&At<FluidText>>) -> Result<Fluid, SpecError> {
+    let Some(text) = text else { return Ok(Fluid::default()) };
+    let mut fluid = match &text.temperature {
+        Some(t) if text.density.is_none() || text.viscosity.is_none() => {
+            Fluid::air(t.value.0, ATMOSPHERE).map_err(|e| placed(t, e))?
+        }
+        Some(t) => Fluid { temperature: t.value.0, ..Fluid::default() },
+        None => Fluid::default(),
+    };
+    if let Some(density) = &text.density {
+        fluid.density = density.value.0;
+    }
+    if let Some(viscosity) = &text.viscosity {
+        fluid.viscosity = viscosity.value.0;
+    }
+    if let Some(path) = &text.mean_free_path {
+        fluid.mean_free_path = path.value.0;
+    }
+    fluid.check().map_err(|e| placed(text, e))?;
+    Ok(fluid)
+}
+
+const KINDS: [&str; 8] = ["still", "uniform", "channel", "pipe", "stagnation", "slot-jet", "round-jet", "table"];
+const PROFILES: [(&str, Profile); 3] =
+    [("plug", Profile::Plug), ("laminar", Profile::Laminar), ("turbulent", Profile::Turbulent)];
+
+/// The flow; still where none is given. Files are looked for beside the case.
+pub(super) fn flow(text: Option<&At<FlowText>>, fluid: &Fluid, folder: &Path) -> Result<Flow, SpecError> {
+    let Some(text) = text else { return Ok(Flow::Still) };
+    let kind = text.kind.value.as_str();
+    refuse_others(text, kind)?;
+    let whose = format!("a {kind} flow");
+    let profile = || word(needed(&text.profile, text, "profile", &whose)?, "profile", &PROFILES);
+    let mean_speed = || needed(&text.mean_speed, text, "mean_speed", &whose).map(|s| s.value.0);
+    Ok(match kind {
+        "still" => Flow::Still,
+        "uniform" => Flow::Uniform { velocity: needed(&text.velocity, text, "velocity", &whose)?.value.si() },
+        "channel" => {
+            let height = needed(&text.height, text, "height", &whose)?;
+            Flow::Channel(Channel::new(profile()?, height.value.0, mean_speed()?, fluid).map_err(|e| placed(text, e))?)
+        }
+        "pipe" => {
+            let point = needed(&text.point, text, "point", &whose)?.value.si();
+            let axis = needed(&text.axis, text, "axis", &whose)?.value;
+            let radius = needed(&text.radius, text, "radius", &whose)?.value.0;
+            Flow::Pipe(Pipe::new(profile()?, point, axis, radius, mean_speed()?, fluid).map_err(|e| placed(text, e))?)
+        }
+        "stagnation" => {
+            let point = needed(&text.point, text, "point", &whose)?.value.si();
+            let normal = needed(&text.normal, text, "normal", &whose)?.value;
+            let rate = needed(&text.strain_rate, text, "strain_rate", &whose)?.value.0;
+            let symmetry = text.line.as_ref().map_or(Symmetry::Axisymmetric, |l| Symmetry::Plane { line: l.value });
+            Flow::Stagnation(Stagnation::new(symmetry, point, normal, rate).map_err(|e| placed(text, e))?)
+        }
+        "slot-jet" => {
+            let width = needed(&text.width, text, "width", &whose)?.value.0;
+            let distance = needed(&text.distance, text, "distance", &whose)?.value.0;
+            let speed = needed(&text.speed, text, "speed", &whose)?.value.0;
+            Flow::SlotJet(SlotJet::new(width, distance, speed).map_err(|e| placed(text, e))?)
+        }
+        "round-jet" => {
+            let diameter = needed(&text.diameter, text, "diameter", &whose)?.value.0;
+            let speed = needed(&text.speed, text, "speed", &whose)?.value.0;
+            Flow::RoundJet(RoundJet::new(diameter, speed).map_err(|e| placed(text, e))?)
+        }
+        "table" => {
+            let file = needed(&text.file, text, "file", &whose)?;
+            Flow::Table(Table::load(&folder.join(&file.value)).map_err(|e| placed(file, format!("{}: {e}", file.value)))?)
+        }
+        _ => return Err(unknown(&text.kind, "kind of flow", KINDS.into_iter())),
+    })
+}
+
+/// A key that this kind of flow does not have is a mistake, not a decoration.
+fn refuse_others(text: &At<FlowText>, kind: &str) -> Result<(), SpecError> {
+    let given = [
+        ("velocity", text.velocity.as_ref().map(|a| a.span.clone())),
+        ("profile", text.profile.as_ref().map(|a| a.span.clone())),
+        ("height", text.height.as_ref().map(|a| a.span.clone())),
+        ("mean_speed", text.mean_speed.as_ref().map(|a| a.span.clone())),
+        ("point", text.point.as_ref().map(|a| a.span.clone())),
+        ("axis", text.axis.as_ref().map(|a| a.span.clone())),
+        ("radius", text.radius.as_ref().map(|a| a.span.clone())),
+        ("normal", text.normal.as_ref().map(|a| a.span.clone())),
+        ("line", text.line.as_ref().map(|a| a.span.clone())),
+        ("strain_rate", text.strain_rate.as_ref().map(|a| a.span.clone())),
+        ("width", text.width.as_ref().map(|a| a.span.clone())),
+        ("diameter", text.diameter.as_ref().map(|a| a.span.clone())),
+        ("distance", text.distance.as_ref().map(|a| a.span.clone())),
+        ("speed", text.speed.as_ref().map(|a| a.span.clone())),
+        ("file", text.file.as_ref().map(|a| a.span.clone())),
+    ];
+    let keys: &[&str] = match kind {
+        "still" => &[],
+        "uniform" => &["velocity"],
+        "channel" => &["profile", "height", "mean_speed"],
+        "pipe" => &["profile", "point", "axis", "radius", "mean_speed"],
+        "stagnation" => &["point", "normal", "strain_rate", "line"],
+        "slot-jet" => &["width", "distance", "speed"],
+        "round-jet" => &["diameter", "speed"],
+        "table" => &["file"],
+        _ => return Ok(()),
+    };
+    for (key, span) in given {
+        if let Some(span) = span.filter(|_| !keys.contains(&key)) {
+            let right = if keys.is_empty() { "it has no keys besides kind".to_owned() } else { format!("its keys are {}", keys.join(", ")) };
+            return Err(SpecError::new(format!("a {kind} flow has no {key}")).help(right).at(span));
+        }
+    }
+    Ok(())
+}
+
+/// The forces; without the table, Schiller–Naumann drag and no gravity.
+pub(super) fn dynamics(text: &ForcesText, fluid: Fluid) -> Result<Dynamics, SpecError> {
+    const DRAGS: [(&str, Drag); 4] = [
+        ("none", Drag::None),
+        ("stokes", Drag::Stokes),
+        ("schiller-naumann", Drag::SchillerNaumann),
+        ("morsi-alexander", Drag::MorsiAlexander),
+    ];
+    let drag = text.drag.as_ref().map_or(Ok(Drag::SchillerNaumann), |d| word(d, "drag law", &DRAGS))?;
+    let slip = text.slip.as_ref().map_or(Ok(Slip::None), |s| word(s, "slip correction", &SLIPS))?;
+    let forces = Forces {
+        gravity: text.gravity.as_ref().map_or([0.0; 3], |g| g.value.si()),
+        // a vacuum buoys nothing
+        buoyancy: text.buoyancy.unwrap_or(drag != Drag::None),
+        drag,
+        slip,
+        saffman: text.saffman.unwrap_or(false),
+        magnus: text.magnus.unwrap_or(false),
+        rotational_drag: text.rotational_drag.unwrap_or(false),
+        pressure_gradient: text.pressure_gradient.unwrap_or(false),
+        added_mass: text.added_mass.unwrap_or(false),
+    };
+    let brownian = text.brownian.as_ref().is_some_and(|b| b.value);
+    if let Some(b) = text.brownian.as_ref().filter(|_| brownian && drag == Drag::None) {
+        return Err(wrong(b, "Brownian motion without drag").help("the molecules that kick also drag: give a drag law"));
+    }
+    Ok(Dynamics { fluid, forces, random_walk: random_walk(text)?, brownian })
+}
+
+pub(super) const SLIPS: [(&str, Slip); 3] = [("none", Slip::None), ("davies", Slip::Davies), ("allen-raabe", Slip::AllenRaabe)];
+
+fn random_walk(text: &ForcesText) -> Result<Option<RandomWalk>, SpecError> {
+    const WALLS: [(&str, NearWall); 3] =
+        [("isotropic", NearWall::Isotropic), ("wang-james", NearWall::WangJames), ("kallio-reeks", NearWall::KallioReeks)];
+    const LIVES: [(&str, Life); 2] = [("constant", Life::Constant), ("random", Life::Random)];
+    let Some(text) = &text.random_walk else { return Ok(None) };
+    let mut walk = RandomWalk::default();
+    if let Some(near_wall) = &text.near_wall {
+        walk.near_wall = word(near_wall, "near-wall correction", &WALLS)?;
+    }
+    if let Some(life) = &text.life {
+        walk.life = word(life, "eddy life", &LIVES)?;
+    }
+    if let Some(scale) = &text.time_scale {
+        walk.time_scale = super::check::positive(scale, "time_scale", scale.value.0)?;
+    }
+    Ok(Some(walk))
+}

@@ -1,0 +1,203 @@
+//! `[[injection]]`.
+
+use super::check::{positive, unknown, word, wrong};
+use super::text::{InjectionText, PlaceText, PlacesText, Si, SizeText, SizesText, VelocityText};
+use crate::flow::Fluid;
+use crate::force::Slip;
+use crate::injection::{Amount, By, Diameter, Injection, InjectionError, Plan, Sizes, Source, Start, Window, geometric_diameter};
+use carom::SpecError;
+use carom::material::{Library, MaterialRef};
+use carom::spec::At;
+use std::ops::Range;
+
+/// An injection of a case.
+#[derive(Clone, Debug)]
+pub struct Injected {
+    /// Its name.
+    pub name: String,
+    /// The spheres' material, if it is given.
+    pub material: Option<MaterialRef>,
+    /// Ready to make its spheres.
+    pub injection: Injection,
+    /// Largest diameter to reckon with, m.
+    pub largest: f64,
+    /// Where its position stands in the case file.
+    pub(super) place: Option<Range<usize>>,
+}
+
+/// Reads one injection.
+pub(super) fn read(at: &At<InjectionText>, index: usize, seed: u64, fluid: &Fluid, library: &Library) -> Result<Injected, SpecError> {
+    let text = &at.value;
+    let name = text.name.as_ref().map_or_else(|| format!("injection {}", index + 1), |n| n.value.clone());
+    let number = u32::try_from(index).map_err(|_| wrong(at, "too many injections"))?;
+    let density = density(at, library)?;
+    let diameter = match &text.diameter_kind {
+        None => Diameter::Geometric,
+        Some(kind) => word(kind, "kind of diameter", &[("geometric", Diameter::Geometric), ("aerodynamic", Diameter::Aerodynamic(Slip::Davies))])?,
+    };
+    let (sizes, mut largest) = sizes(&text.diameter)?;
+    if let Diameter::Aerodynamic(slip) = diameter {
+        largest = geometric_diameter(largest, density, slip, fluid.mean_free_path);
+    }
+    let start = text.start.as_ref().map_or(0.0, |t| t.value.0);
+    let plan = Plan {
+        source: place(&text.position)?,
+        velocity: match text.velocity.value {
+            VelocityText::Given(v) => Start::Velocity(v),
+            VelocityText::Fluid => Start::Fluid,
+        },
+        spin: text.spin.as_ref().map_or([0.0; 3], |s| s.value.si()),
+        density,
+        sizes,
+        diameter,
+        window: Window { start, stop: text.stop.as_ref().map_or(start, |t| t.value.0) },
+        amount: amount(at)?,
+    };
+    if let Some(start) = text.start.as_ref().filter(|s| s.value.0 < 0.0) {
+        return Err(wrong(start, format!("start is {} s", start.value.0)).help("a run begins at 0 s"));
+    }
+    let injection = Injection::new(seed, number, plan, fluid).map_err(|e| blame(at, &e).at(at.span.clone()))?;
+    Ok(Injected { name, material: text.material.as_ref().map(|m| m.value.clone()), injection, largest, place: text.position.span.clone() })
+}
+
+/// The key that an injection's error is about.
+fn blame(at: &At<InjectionText>, error: &InjectionError) -> SpecError {
+    let (InjectionError::Value { name, .. } | InjectionError::Shape { name, .. }) = error;
+    let text = &at.value;
+    let about = |words: &[&str]| words.iter().any(|w| name.contains(w));
+    let span = if about(&["start time"]) {
+        text.start.as_ref().and_then(|a| a.span.clone())
+    } else if about(&["stop time"]) {
+        text.stop.as_ref().or(text.start.as_ref()).and_then(|a| a.span.clone())
+    } else if about(&["mass", "number of particles"]) {
+        let amount = [text.count.as_ref().map(|a| &a.span), text.mass.as_ref().map(|a| &a.span), text.mass_flow.as_ref().map(|a| &a.span)];
+        amount.into_iter().flatten().next().cloned().flatten()
+    } else if about(&["point", "corner", "box", "disc", "patch", "surface"]) {
+        text.position.span.clone()
+    } else if about(&["velocity"]) {
+        text.velocity.span.clone()
+    } else if about(&["spin"]) {
+        text.spin.as_ref().and_then(|a| a.span.clone())
+    } else if about(&["density"]) {
+        text.density.as_ref().and_then(|a| a.span.clone())
+    } else {
+        text.diameter.span.clone()
+    };
+    SpecError::new(error.to_string()).at(span)
+}
+
+fn density(at: &At<InjectionText>, library: &Library) -> Result<f64, SpecError> {
+    let material = at.value.material.as_ref().map(|m| m.value.resolve(library).map_err(|e| e.at(m.span.clone()))).transpose()?;
+    if let Some(density) = &at.value.density {
+        return positive(density, "density", density.value.0);
+    }
+    let Some(material) = material else {
+        return Err(wrong(at, "an injection needs a material or a density"));
+    };
+    material.density.ok_or_else(|| wrong(at, format!("{} has no density in the library", material.name)).help("give density"))
+}
+
+fn amount(at: &At<InjectionText>) -> Result<Amount, SpecError> {
+    let text = &at.value;
+    let parcels = || text.parcels.as_ref().map(|p| p.value).ok_or_else(|| wrong(at, "a mass needs a number of parcels to carry it").help("give parcels"));
+    match (&text.count, &text.mass, &text.mass_flow) {
+        (Some(count), None, None) => match &text.parcels {
+            Some(p) => Err(wrong(p, "parcels with a count").help("a count injects single spheres; parcels carry a mass or a mass_flow")),
+            None => Ok(Amount::Count(count.value)),
+        },
+        (None, Some(mass), None) => Ok(Amount::Mass { total: mass.value.0, parcels: parcels()? }),
+        (None, None, Some(flow)) => Ok(Amount::MassFlow { rate: flow.value.0, parcels: parcels()? }),
+        (None, None, None) => Ok(Amount::Count(1)),
+        _ => Err(wrong(at, "more than one of count, mass and mass_flow").help("keep one")),
+    }
+}
+
+/// The distribution, and the largest diameter to reckon with: of an endless tail, five standard deviations.
+fn sizes(at: &At<SizeText>) -> Result<(Sizes, f64), SpecError> {
+    let text: &SizesText = match &at.value {
+        SizeText::One(d) => return Ok((Sizes::Mono(positive(at, "diameter", *d)?), *d)),
+        SizeText::Distribution(text) => text,
+    };
+    let kinds = [("number", By::Number), ("mass", By::Mass)];
+    let by = |usual| text.by.as_ref().map_or(Ok(usual), |b| word(b, "way to count", &kinds));
+    match (&text.lognormal, &text.rosin_rammler, &text.table) {
+        (Some(l), None, None) => {
+            let sizes = Sizes::Lognormal { median: l.median.0, gsd: l.gsd, by: by(By::Number)? };
+            Ok((sizes, l.median.0 * l.gsd.powi(5)))
+        }
+        (None, Some(r), None) => {
+            let sizes = Sizes::RosinRammler { mean: r.mean.0, spread: r.spread, min: r.min.0, max: r.max.0, by: by(By::Mass)? };
+            Ok((sizes, r.max.0))
+        }
+        (None, None, Some(t)) => {
+            if t.diameter.len() != t.amount.len() {
+                let message = format!("{} diameters but {} amounts", t.diameter.len(), t.amount.len());
+                return Err(wrong(at, message).help("a table gives one amount for each diameter"));
+            }
+            let rows: Vec<_> = t.diameter.iter().map(|d| d.0).zip(t.amount.iter().copied()).collect();
+            let largest = rows.iter().map(|r| r.0).fold(0.0, f64::max);
+            Ok((Sizes::Table { rows, by: by(By::Number)? }, largest))
+        }
+        _ => Err(wrong(at, "a diameter is one of lognormal, rosin_rammler and table")),
+    }
+}
+
+fn place(at: &At<PlaceText>) -> Result<Source, SpecError> {
+    let text: &PlacesText = match &at.value {
+        PlaceText::Point(p) => return Ok(Source::Point(*p)),
+        PlaceText::Place(text) => text,
+    };
+    match (&text.room, &text.disc, &text.patch) {
+        (Some([a, b]), None, None) => {
+            let (a, b) = (a.si(), b.si());
+            Ok(Source::Box { low: [0, 1, 2].map(|i| a[i].min(b[i])), high: [0, 1, 2].map(|i| a[i].max(b[i])) })
+        }
+        (None, Some(d), None) => Ok(Source::Disc { centre: d.center.si(), normal: d.normal, radius: d.radius.0 }),
+        (None, None, Some(p)) => Ok(Source::Patch { corner: p.corner.si(), sides: [p.sides[0].si(), p.sides[1].si()] }),
+        _ => Err(wrong(at, "a position is a point or one of box, disc and patch")),
+    }
+}
+
+/// Points whose convex hull holds every start.
+pub(super) fn hull(source: &Source) -> Vec<[f64; 3]> {
+    use crate::vector::{add, frame, scale, unit};
+    match source {
+        Source::Point(p) => vec![*p],
+        Source::Box { low, high } => (0..8).map(|i| [0, 1, 2].map(|c| if i >> c & 1 == 0 { low[c] } else { high[c] })).collect(),
+        Source::Disc { centre, normal, radius } => {
+            let (t, b) = frame(unit(*normal).unwrap_or([0.0, 1.0, 0.0]));
+            // a square around the disc would reach further than it does: points on its rim, close together
+            (0..360)
+                .map(|i| {
+                    let (s, c) = f64::from(i).to_radians().sin_cos();
+                    add(*centre, add(scale(t, radius * c), scale(b, radius * s)))
+                })
+                .collect()
+        }
+        Source::Patch { corner, sides } => {
+            vec![*corner, add(*corner, sides[0]), add(*corner, sides[1]), add(*corner, add(sides[0], sides[1]))]
+        }
+        Source::Triangles(triangles) => triangles.iter().flatten().copied().collect(),
+    }
+}
+
+/// A name that no other has.
+pub(super) fn distinct<'a>(names: impl Iterator<Item = &'a At<String>>, what: &str) -> Result<(), SpecError> {
+    let mut seen: Vec<&str> = Vec::new();
+    for name in names {
+        if seen.contains(&name.value.as_str()) {
+            return Err(wrong(name, format!("two {what}s are called '{}'", name.value)).help("results are given by name: use another"));
+        }
+        if name.value.trim().is_empty() {
+            return Err(wrong(name, format!("a {what} without a name")));
+        }
+        seen.push(&name.value);
+    }
+    Ok(())
+}
+
+/// The law a wall names, or the words that are no law.
+pub(super) fn no_such_law<'a>(text: &At<String>, laws: impl Iterator<Item = &'a String>) -> SpecError {
+    let words = super::wall::WORDS.iter().copied();
+    unknown(text, "wall law", laws.map(String::as_str).chain(words))
+}

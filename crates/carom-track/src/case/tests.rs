@@ -1,0 +1,159 @@
+use super::*;
+
+const GOOD: &str = r#"
+title = "Copper in a channel"
+seed = 7
+[fluid]
+density = "1.19 kg/m3"
+viscosity = "1.83e-5 Pa s"
+[flow]
+kind = "channel"
+profile = "laminar"
+height = "30 mm"
+mean_speed = "2 m/s"
+[forces]
+gravity = ["0 m/s2", "-9.81 m/s2", "0 m/s2"]
+drag = "schiller-naumann"
+[[wall]]
+name = "floor"
+plane = { point = ["0 m", "0 m", "0 m"], normal = [0, 1, 0] }
+law = "plate"
+[[wall]]
+name = "ceiling"
+plane = { point = ["0 m", "30 mm", "0 m"], normal = [0, -1, 0] }
+law = "reflect"
+restitution = 0.9
+tangential_restitution = 0.8
+[[wall]]
+name = "outlet"
+plane = { point = ["1 m", "0 m", "0 m"], normal = [-1, 0, 0] }
+law = "escape"
+contact_at = "center"
+[law.plate]
+sphere = "copper"
+surface = "silicon"
+normal = "ea"
+friction = 0.2
+roughness_factor = 0.8
+[[injection]]
+name = "dispenser"
+material = "copper"
+diameter = "90 um"
+count = 10
+position = ["0 m", "25 mm", "0 m"]
+velocity = ["2 m/s", "0 m/s", "0 m/s"]
+[run]
+until = "2 s"
+"#;
+
+fn read(text: &str) -> Result<Case, CaseError> {
+    Case::from_toml(text, Path::new("case.toml"), &Library::builtin())
+}
+
+#[test]
+fn a_good_case_reads_whole() {
+    let case = read(GOOD).unwrap();
+    assert_eq!(case.count(), 10);
+    assert_eq!(case.title, "Copper in a channel");
+    assert_eq!(case.domain.walls().len(), 3);
+    assert_eq!((case.settings.until, case.settings.seed), (2.0, 7));
+    let p = case.particle(9).unwrap();
+    assert_eq!((p.number, p.diameter, p.density), (9, 90e-6, 8940.0));
+    assert_eq!(p.position, [0.0, 0.025, 0.0]);
+    assert!(case.particle(10).is_none());
+}
+
+/// The case with one line changed is refused, at that line, with these words.
+fn refused(from: &str, to: &str, words: &[&str]) {
+    assert!(GOOD.contains(from), "{from}");
+    let text = GOOD.replacen(from, to, 1);
+    let error = read(&text).expect_err(to);
+    let shown = error.located("case.toml", &text);
+    for word in words {
+        assert!(shown.contains(word), "'{word}' not in: {shown}");
+    }
+    let line = 1 + GOOD[..GOOD.find(from).unwrap()].matches('\n').count();
+    let lines = to.trim_end().matches('\n').count();
+    let at = error.line_column(&text).unwrap_or_else(|| panic!("no place: {shown}")).0;
+    assert!((line..=line + lines).contains(&at), "line {at}, not {line}: {shown}");
+}
+
+#[test]
+fn mistakes_are_refused_at_their_line() {
+    refused("seed = 7", "sead = 7", &["sead"]);
+    refused("height = \"30 mm\"", "height = \"30 m/s\"", &["30 m/s", "length"]);
+    refused("height = \"30 mm\"", "heigth = \"30 mm\"", &["heigth"]);
+    refused("kind = \"channel\"", "kind = \"chanel\"", &["chanel", "did you mean channel?"]);
+    refused("mean_speed = \"2 m/s\"", "mean_speed = \"2 m/s\"\nradius = \"1 m\"", &["no radius"]);
+    refused("drag = \"schiller-naumann\"", "drag = \"shiller-naumann\"", &["did you mean schiller-naumann?"]);
+    refused("material = \"copper\"", "material = \"coper\"", &["coper", "did you mean copper?"]);
+    refused("surface = \"silicon\"", "surface = \"silcon\"", &["did you mean silicon?"]);
+    refused("law = \"plate\"", "law = \"plat\"", &["did you mean plate?"]);
+    refused("law = \"escape\"", "law = \"escpe\"", &["did you mean escape?"]);
+    refused("contact_at = \"center\"", "contact_at = \"centre\"", &["did you mean center?"]);
+    refused("restitution = 0.9", "restitution = 1.9", &["1.9"]);
+    refused("name = \"ceiling\"", "name = \"floor\"", &["two walls are called 'floor'"]);
+    refused("normal = [0, 1, 0]", "normal = [0, 0, 0]", &["no direction"]);
+    refused("diameter = \"90 um\"", "diameter = \"-90 um\"", &["diameter", "positive"]);
+    refused("diameter = \"90 um\"", "diameter = { lognormal = { median = \"70 um\", gsd = 0.5 } }", &["standard deviation"]);
+    refused("count = 10", "count = 10\nparcels = 3", &["parcels"]);
+    refused("until = \"2 s\"", "until = \"-2 s\"", &["until"]);
+    refused("until = \"2 s\"", "until = \"2 s\"\ntolerance = 0.5", &["tolerance"]);
+    refused("until = \"2 s\"", "until = \"inf\"", &["inf"]);
+}
+
+#[test]
+fn injections_inside_a_wall_are_refused() {
+    let at = |y: &str| format!("position = [\"0 m\", \"{y}\", \"0 m\"]");
+    refused(&at("25 mm"), &at("0.04 mm"), &["dispenser", "inside wall 'floor'"]);
+    refused(&at("25 mm"), &at("31 mm"), &["inside wall 'ceiling'"]);
+    let text = "position = { box = [[\"0 m\", \"1 mm\", \"0 m\"], [\"2 m\", \"2 mm\", \"0 m\"]] }";
+    refused(&at("25 mm"), text, &["beyond wall 'outlet'"]);
+    // touching is not inside
+    assert!(read(&GOOD.replace("25 mm\"", "45 um\"")).is_ok());
+}
+
+#[test]
+fn walls_that_contradict_each_other_are_refused() {
+    let error = read(&GOOD.replacen("normal = [0, -1, 0]", "normal = [0, 1, 0]", 1)).unwrap_err();
+    assert!(error.to_string().contains("inside wall 'ceiling'"), "{error}");
+    let swapped = GOOD.replacen("[\"0 m\", \"30 mm\", \"0 m\"], normal", "[\"0 m\", \"-30 mm\", \"0 m\"], normal", 1);
+    let error = read(&swapped).unwrap_err();
+    assert!(error.to_string().contains("walls 'floor' and 'ceiling' contradict"), "{error}");
+    let narrow = GOOD.replacen("[\"0 m\", \"30 mm\", \"0 m\"], normal", "[\"0 m\", \"80 um\", \"0 m\"], normal", 1);
+    assert!(read(&narrow).unwrap_err().to_string().contains("no room for a sphere"));
+}
+
+#[test]
+fn a_run_that_nothing_ends_is_refused() {
+    let closed = GOOD.replace("until = \"2 s\"", "");
+    assert!(read(&closed).is_ok(), "the outlet is a way out");
+    let closed = closed.replace("law = \"escape\"", "law = \"plate\"");
+    let error = read(&closed).unwrap_err();
+    assert!(error.to_string().contains("neither until nor a wall"), "{error}");
+}
+
+#[test]
+fn a_wall_may_slide_but_not_leave() {
+    let moving = |v: &str| read(&GOOD.replacen("law = \"plate\"", &format!("law = \"plate\"\nvelocity = [{v}]"), 1));
+    assert!(moving("1, 0, 0").is_ok());
+    assert!(moving("1, 0.1, 0").unwrap_err().to_string().contains("moves off itself"));
+}
+
+#[test]
+fn a_law_for_another_sphere_is_refused_and_one_for_none_takes_the_injections() {
+    let silver = GOOD.replacen("material = \"copper\"", "material = \"aluminium\"", 1);
+    let error = read(&silver).unwrap_err();
+    assert!(error.to_string().contains("law 'plate' is for spheres of copper"), "{error}");
+    assert!(read(&silver.replacen("sphere = \"copper\"\n", "", 1)).is_ok());
+}
+
+#[test]
+fn any_bytes_are_answered_not_suffered() {
+    use proptest::prelude::*;
+    proptest!(|(cut in 0usize..GOOD.len(), noise in "[\\[\\]{}=\"a-z0-9 .\n-]{0,12}")| {
+        if GOOD.is_char_boundary(cut) {
+            let _ = read(&format!("{}{noise}{}", &GOOD[..cut], &GOOD[cut..]));
+        }
+    });
+}

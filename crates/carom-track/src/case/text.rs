@@ -1,0 +1,316 @@
+//! The case file as written: what serde reads, with places, before anything is checked.
+
+use carom::material::MaterialRef;
+use carom::spec::{At, CurveSpec, LawSpec};
+use carom::units::{
+    Acceleration, AngularVelocity, Density, Frequency, Length, Mass, MassFlow, Number, Speed, Temperature, Time, Viscosity,
+};
+use std::collections::BTreeMap;
+
+/// A case file.
+#[derive(Debug, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct CaseText {
+    pub title: Option<String>,
+    pub seed: Option<u64>,
+    pub fluid: Option<At<FluidText>>,
+    pub flow: Option<At<FlowText>>,
+    #[serde(default)]
+    pub forces: ForcesText,
+    #[serde(default)]
+    pub wall: Vec<At<WallText>>,
+    #[serde(default)]
+    pub law: BTreeMap<String, At<LawSpec>>,
+    #[serde(default)]
+    pub injection: Vec<At<InjectionText>>,
+    #[serde(default)]
+    pub run: Option<At<RunText>>,
+    #[serde(default)]
+    pub output: OutputText,
+}
+
+#[derive(Debug, Default, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct FluidText {
+    pub density: Option<At<Density>>,
+    pub viscosity: Option<At<Viscosity>>,
+    pub temperature: Option<At<Temperature>>,
+    pub mean_free_path: Option<At<Length>>,
+}
+
+#[derive(Debug, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct FlowText {
+    pub kind: At<String>,
+    pub velocity: Option<At<[Speed; 3]>>,
+    pub profile: Option<At<String>>,
+    pub height: Option<At<Length>>,
+    pub mean_speed: Option<At<Speed>>,
+    pub point: Option<At<[Length; 3]>>,
+    pub axis: Option<At<[f64; 3]>>,
+    pub radius: Option<At<Length>>,
+    pub normal: Option<At<[f64; 3]>>,
+    pub line: Option<At<[f64; 3]>>,
+    pub strain_rate: Option<At<Frequency>>,
+    pub width: Option<At<Length>>,
+    pub diameter: Option<At<Length>>,
+    pub distance: Option<At<Length>>,
+    pub speed: Option<At<Speed>>,
+    pub file: Option<At<String>>,
+}
+
+#[derive(Debug, Default, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ForcesText {
+    pub gravity: Option<At<[Acceleration; 3]>>,
+    pub buoyancy: Option<bool>,
+    pub drag: Option<At<String>>,
+    pub slip: Option<At<String>>,
+    pub saffman: Option<bool>,
+    pub magnus: Option<bool>,
+    pub rotational_drag: Option<bool>,
+    pub pressure_gradient: Option<bool>,
+    pub added_mass: Option<bool>,
+    pub brownian: Option<At<bool>>,
+    pub random_walk: Option<At<RandomWalkText>>,
+}
+
+#[derive(Debug, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RandomWalkText {
+    pub near_wall: Option<At<String>>,
+    pub life: Option<At<String>>,
+    pub time_scale: Option<At<Number>>,
+}
+
+#[derive(Debug, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct WallText {
+    pub name: At<String>,
+    pub plane: Option<At<PlaneText>>,
+    pub cylinder: Option<At<CylinderText>>,
+    #[serde(rename = "box")]
+    pub room: Option<At<[[Length; 3]; 2]>>,
+    pub law: At<String>,
+    pub restitution: Option<At<CurveSpec>>,
+    pub tangential_restitution: Option<At<CurveSpec>>,
+    pub contact_at: Option<At<String>>,
+    pub velocity: Option<At<[Speed; 3]>>,
+}
+
+#[derive(Debug, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct PlaneText {
+    pub point: [Length; 3],
+    pub normal: At<[f64; 3]>,
+}
+
+#[derive(Debug, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct CylinderText {
+    pub point: [Length; 3],
+    pub axis: At<[f64; 3]>,
+    pub radius: At<Length>,
+    pub fluid: Option<At<String>>,
+}
+
+#[derive(Debug, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct InjectionText {
+    pub name: Option<At<String>>,
+    pub material: Option<At<MaterialRef>>,
+    pub density: Option<At<Density>>,
+    pub diameter: At<SizeText>,
+    pub diameter_kind: Option<At<String>>,
+    pub count: Option<At<u64>>,
+    pub mass: Option<At<Mass>>,
+    pub mass_flow: Option<At<MassFlow>>,
+    pub parcels: Option<At<u64>>,
+    pub position: At<PlaceText>,
+    pub velocity: At<VelocityText>,
+    pub spin: Option<At<[AngularVelocity; 3]>>,
+    pub start: Option<At<Time>>,
+    pub stop: Option<At<Time>>,
+}
+
+/// A diameter, or a distribution of diameters.
+#[derive(Debug)]
+pub(super) enum SizeText {
+    One(f64),
+    Distribution(Box<SizesText>),
+}
+
+#[derive(Debug, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SizesText {
+    pub lognormal: Option<LognormalText>,
+    pub rosin_rammler: Option<RosinRammlerText>,
+    pub table: Option<TableText>,
+    pub by: Option<At<String>>,
+}
+
+#[derive(Debug, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct LognormalText {
+    pub median: Length,
+    pub gsd: f64,
+}
+
+#[derive(Debug, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RosinRammlerText {
+    pub mean: Length,
+    pub spread: f64,
+    pub min: Length,
+    pub max: Length,
+}
+
+#[derive(Debug, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct TableText {
+    pub diameter: Vec<Length>,
+    pub amount: Vec<f64>,
+}
+
+/// A point, or a place to fill at random.
+#[derive(Debug)]
+pub(super) enum PlaceText {
+    Point([f64; 3]),
+    Place(Box<PlacesText>),
+}
+
+#[derive(Debug, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct PlacesText {
+    #[serde(rename = "box")]
+    pub room: Option<[[Length; 3]; 2]>,
+    pub disc: Option<DiscText>,
+    pub patch: Option<PatchText>,
+}
+
+#[derive(Debug, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct DiscText {
+    pub center: [Length; 3],
+    pub normal: [f64; 3],
+    pub radius: Length,
+}
+
+#[derive(Debug, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct PatchText {
+    pub corner: [Length; 3],
+    pub sides: [[Length; 3]; 2],
+}
+
+/// A velocity, or `"fluid"`.
+#[derive(Debug)]
+pub(super) enum VelocityText {
+    Given([f64; 3]),
+    Fluid,
+}
+
+#[derive(Debug, Default, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RunText {
+    pub until: Option<At<Time>>,
+    pub tolerance: Option<At<Number>>,
+    pub settle_height: Option<At<Length>>,
+    pub max_steps: Option<At<u64>>,
+}
+
+#[derive(Debug, Default, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct OutputText {
+    pub trajectories: Option<At<u64>>,
+    pub impacts: Option<bool>,
+}
+
+/// The numbers in SI units.
+pub(super) trait Si {
+    fn si(&self) -> [f64; 3];
+}
+
+macro_rules! si {
+    ($($unit:ty),*) => {$(
+        impl Si for [$unit; 3] {
+            fn si(&self) -> [f64; 3] {
+                [self[0].0, self[1].0, self[2].0]
+            }
+        }
+    )*};
+}
+si!(Length, Speed, Acceleration, AngularVelocity);
+
+mod forms {
+    //! Values that may be written in more than one form: a visitor each, so that the errors inside keep their words.
+
+    use super::{PlaceText, PlacesText, Si, SizeText, SizesText, VelocityText};
+    use carom::units::{Length, Speed};
+    use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+    use serde::de::{self, Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
+    use std::fmt;
+
+    impl<'de> Deserialize<'de> for SizeText {
+        fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+            struct Size;
+            impl<'de> Visitor<'de> for Size {
+                type Value = SizeText;
+                fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                    f.write_str("a diameter such as \"90 um\", or { lognormal = { median = \"70 um\", gsd = 1.3 } }, { rosin_rammler = ... } or { table = ... }")
+                }
+                fn visit_str<E: de::Error>(self, v: &str) -> Result<SizeText, E> {
+                    v.parse::<Length>().map(|l| SizeText::One(l.0)).map_err(E::custom)
+                }
+                fn visit_f64<E: de::Error>(self, v: f64) -> Result<SizeText, E> {
+                    Ok(SizeText::One(v))
+                }
+                fn visit_i64<E: de::Error>(self, v: i64) -> Result<SizeText, E> {
+                    Ok(SizeText::One(v as f64))
+                }
+                fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<SizeText, A::Error> {
+                    SizesText::deserialize(MapAccessDeserializer::new(map)).map(|s| SizeText::Distribution(Box::new(s)))
+                }
+            }
+            deserializer.deserialize_any(Size)
+        }
+    }
+
+    impl<'de> Deserialize<'de> for PlaceText {
+        fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+            struct Place;
+            impl<'de> Visitor<'de> for Place {
+                type Value = PlaceText;
+                fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                    f.write_str("a point such as [\"0 m\", \"25 mm\", \"0 m\"], or { box = [corner, corner] }, { disc = ... } or { patch = ... }")
+                }
+                fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<PlaceText, A::Error> {
+                    <[Length; 3]>::deserialize(SeqAccessDeserializer::new(seq)).map(|p| PlaceText::Point(p.si()))
+                }
+                fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<PlaceText, A::Error> {
+                    PlacesText::deserialize(MapAccessDeserializer::new(map)).map(|p| PlaceText::Place(Box::new(p)))
+                }
+            }
+            deserializer.deserialize_any(Place)
+        }
+    }
+
+    impl<'de> Deserialize<'de> for VelocityText {
+        fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+            struct Velocity;
+            impl<'de> Visitor<'de> for Velocity {
+                type Value = VelocityText;
+                fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                    f.write_str("a velocity such as [\"2 m/s\", \"0 m/s\", \"0 m/s\"], or \"fluid\"")
+                }
+                fn visit_str<E: de::Error>(self, v: &str) -> Result<VelocityText, E> {
+                    if v == "fluid" { Ok(VelocityText::Fluid) } else { Err(E::invalid_value(de::Unexpected::Str(v), &self)) }
+                }
+                fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<VelocityText, A::Error> {
+                    <[Speed; 3]>::deserialize(SeqAccessDeserializer::new(seq)).map(|p| VelocityText::Given(p.si()))
+                }
+            }
+            deserializer.deserialize_any(Velocity)
+        }
+    }
+}

@@ -1,0 +1,185 @@
+//! Rates of change of `W` spheres side by side.
+//!
+//! Where only drag, gravity and buoyancy act, they are worked out in loops that vectorise; every other force goes
+//! through [`Forces::rates`], sphere by sphere. Either way the lanes do not mix.
+
+use crate::domain::Domain;
+use crate::flow::Fluid;
+use crate::force::{Drag, Eddy, Forces, RandomWalk, Sphere, relaxation_time};
+use crate::integrate::{Lanes, Lanes3, Motion, Rates};
+use crate::vector::{Vec3, add};
+
+/// What acts on the spheres of a run.
+#[derive(Clone, Copy, Debug)]
+pub struct Dynamics {
+    /// The fluid.
+    pub fluid: Fluid,
+    /// The deterministic forces.
+    pub forces: Forces,
+    /// Turbulent dispersion, if any.
+    pub random_walk: Option<RandomWalk>,
+    /// Whether the molecules' kicks are felt.
+    pub brownian: bool,
+}
+
+/// What the forces need of each sphere, worked out once.
+#[derive(Clone, Copy, Debug)]
+pub struct Bodies<const W: usize> {
+    /// The spheres.
+    pub sphere: [Sphere; W],
+    /// Radius, m.
+    pub radius: Lanes<W>,
+    /// Rate of Stokes drag, 1/τ_p, 1/s; 0 without drag.
+    pub drag_rate: Lanes<W>,
+    /// Reynolds number per speed, ρ_f d/μ, s/m.
+    pub reynolds: Lanes<W>,
+    /// Gravity less buoyancy, m/s².
+    pub weight: Lanes3<W>,
+    /// The eddy each is in.
+    pub eddy: [Option<Eddy>; W],
+    /// Acceleration by the molecules' present kick, m/s².
+    pub kick: Lanes3<W>,
+}
+
+impl<const W: usize> Bodies<W> {
+    /// Spheres that feel nothing.
+    pub const NONE: Self = Self {
+        sphere: [Sphere { diameter: 1.0, density: 1.0 }; W],
+        radius: [0.0; W],
+        drag_rate: [0.0; W],
+        reynolds: [0.0; W],
+        weight: [[0.0; W]; 3],
+        eddy: [None; W],
+        kick: [[0.0; W]; 3],
+    };
+
+    /// One of the spheres alone.
+    #[inline(always)]
+    pub fn one(&self, l: usize) -> Bodies<1> {
+        Bodies {
+            sphere: [self.sphere[l]],
+            radius: [self.radius[l]],
+            drag_rate: [self.drag_rate[l]],
+            reynolds: [self.reynolds[l]],
+            weight: [[self.weight[0][l]], [self.weight[1][l]], [self.weight[2][l]]],
+            eddy: [self.eddy[l]],
+            kick: [[self.kick[0][l]], [self.kick[1][l]], [self.kick[2][l]]],
+        }
+    }
+}
+
+impl Dynamics {
+    /// Only drag, gravity and buoyancy.
+    #[inline(always)]
+    fn is_plain(&self) -> bool {
+        self.forces.is_plain() && self.random_walk.is_none() && !self.brownian
+    }
+
+    /// Whether spin changes in flight.
+    pub fn spins(&self) -> bool {
+        self.forces.rotational_drag
+    }
+
+    /// Whether the forces depend on where a sphere is.
+    pub fn need_place<D: Domain>(&self, domain: &D) -> bool {
+        !(self.is_plain() && (self.forces.drag == Drag::None || domain.is_uniform()))
+    }
+
+    /// τ_p of Stokes drag with slip, s; infinite without drag.
+    pub fn relaxation_time(&self, sphere: &Sphere) -> f64 {
+        match self.forces.drag {
+            Drag::None => f64::INFINITY,
+            _ => relaxation_time(&self.fluid, sphere, self.slip(sphere)),
+        }
+    }
+
+    /// Cunningham's factor.
+    pub fn slip(&self, sphere: &Sphere) -> f64 {
+        self.forces.slip.factor(sphere.diameter, self.fluid.mean_free_path)
+    }
+
+    /// A first trial step, s: a third of the time in which drag acts, or a second without drag.
+    pub fn first_step(&self, drag_rate: f64) -> f64 {
+        if drag_rate > 0.0 { 0.3 / drag_rate } else { 1.0 }
+    }
+
+    /// Puts a sphere into a lane.
+    #[inline(always)]
+    pub fn body<const W: usize>(&self, l: usize, sphere: Sphere, bodies: &mut Bodies<W>) {
+        bodies.sphere[l] = sphere;
+        bodies.radius[l] = 0.5 * sphere.diameter;
+        bodies.drag_rate[l] = 1.0 / self.relaxation_time(&sphere);
+        bodies.reynolds[l] = self.fluid.density * sphere.diameter / self.fluid.viscosity;
+        let left = if self.forces.buoyancy { 1.0 - self.fluid.density / sphere.density } else { 1.0 };
+        for c in 0..3 {
+            bodies.weight[c][l] = self.forces.gravity[c] * left;
+            bodies.kick[c][l] = 0.0;
+        }
+        bodies.eddy[l] = None;
+    }
+
+    /// Accelerations of spheres in a domain's fluid.
+    #[inline(always)]
+    pub fn rates<const W: usize, D: Domain>(&self, domain: &D, bodies: &Bodies<W>, m: &Motion<W>, out: &mut Rates<W>) {
+        if self.is_plain() {
+            self.plain_rates(domain, bodies, m, out);
+        } else {
+            for l in 0..W {
+                let r = self.full_rates(domain, bodies, m, l);
+                for c in 0..3 {
+                    out.a[c][l] = r.acceleration[c] + bodies.kick[c][l];
+                    out.alpha[c][l] = r.spin[c];
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn plain_rates<const W: usize, D: Domain>(&self, domain: &D, bodies: &Bodies<W>, m: &Motion<W>, out: &mut Rates<W>) {
+        out.a = bodies.weight;
+        if self.forces.drag == Drag::None {
+            return;
+        }
+        let u = domain.velocities(&m.x);
+        let slip = [difference(u[0], m.v[0]), difference(u[1], m.v[1]), difference(u[2], m.v[2])];
+        let mut rate = bodies.drag_rate;
+        if self.forces.drag != Drag::Stokes {
+            let per_speed = bodies.reynolds;
+            let mut reynolds = [0.0; W];
+            for l in 0..W {
+                let (x, y, z) = (slip[0][l], slip[1][l], slip[2][l]);
+                reynolds[l] = per_speed[l] * x.mul_add(x, y.mul_add(y, z * z)).sqrt();
+            }
+            let factors = self.forces.drag.factors(&reynolds);
+            for l in 0..W {
+                rate[l] *= factors[l];
+            }
+        }
+        for c in 0..3 {
+            let mut a = bodies.weight[c];
+            for l in 0..W {
+                a[l] = rate[l].mul_add(slip[c][l], a[l]);
+            }
+            out.a[c] = a;
+        }
+    }
+
+    fn full_rates<const W: usize, D: Domain>(&self, domain: &D, bodies: &Bodies<W>, m: &Motion<W>, l: usize) -> crate::force::Rates {
+        let at = |v: &Lanes3<W>| -> Vec3 { [v[0][l], v[1][l], v[2][l]] };
+        let mut local = domain.fluid(at(&m.x));
+        if let (Some(walk), Some(eddy)) = (&self.random_walk, &bodies.eddy[l]) {
+            let gust = walk.fluctuation(eddy, &local, self.fluid.kinematic_viscosity());
+            local.velocity = add(local.velocity, gust);
+        }
+        self.forces.rates(&self.fluid, &bodies.sphere[l], &local, at(&m.v), at(&m.spin))
+    }
+}
+
+#[inline(always)]
+fn difference<const W: usize>(a: Lanes<W>, b: Lanes<W>) -> Lanes<W> {
+    let mut out = [0.0; W];
+    for l in 0..W {
+        out[l] = a[l] - b[l];
+    }
+    out
+}

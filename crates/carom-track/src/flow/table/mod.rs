@@ -1,0 +1,261 @@
+//! Velocity (and k, ε) on the nodes of a rectilinear grid, interpolated linearly along each axis.
+//!
+//! CSV (legacy VTK too, see [`Table::from_vtk`]): a header with the columns `x, y, z, u, v, w` and optionally `k, epsilon`, SI units, one node a row, in any order,
+//! every node of the grid exactly once. A coordinate with one value, or left out, makes a table of fewer dimensions:
+//! nothing varies along it. `v` and `w` left out are zero. Outside the grid the nearest value on its boundary holds.
+//! The gradient is the interpolant's own: it jumps from cell to cell. A linear interpolant of a solenoidal field is
+//! solenoidal only to first order in the spacing.
+//!
+//! ```
+//! use carom_track::flow::Table;
+//! let table = Table::from_csv("x,y,u\n0,0,0\n1,0,0\n0,2,4\n1,2,8\n".as_bytes())?;
+//! assert_eq!(table.velocity([0.5, 1.0, 9.0]), [3.0, 0.0, 0.0]);
+//! # Ok::<(), carom_track::flow::TableError>(())
+//! ```
+
+mod csv;
+mod error;
+mod vtk;
+
+pub use error::TableError;
+
+use super::Local;
+use std::io::Read;
+
+/// Node coordinates along one axis, rising.
+#[derive(Clone, Debug)]
+struct Axis {
+    at: Vec<f64>,
+    /// 1/spacing where the nodes are evenly spaced: then no search is needed.
+    per_spacing: Option<f64>,
+}
+
+/// A cell and the place in it, along one axis.
+#[derive(Clone, Copy)]
+struct Place {
+    low: usize,
+    high: usize,
+    t: f64,
+    /// 1/width, or 0 where nothing varies (one node, or outside the grid).
+    slope: f64,
+}
+
+impl Axis {
+    fn new(at: Vec<f64>) -> Self {
+        let (first, last) = (at[0], at[at.len() - 1]);
+        let n = at.len() - 1;
+        let h = (last - first) / n as f64;
+        let even = n > 0 && at.iter().enumerate().all(|(i, x)| (x - (first + i as f64 * h)).abs() < 1e-9 * h);
+        Self { at, per_spacing: even.then(|| 1.0 / h) }
+    }
+
+    #[inline]
+    fn place(&self, x: f64) -> Place {
+        let n = self.at.len() - 1;
+        if n == 0 || x <= self.at[0] || x.is_nan() {
+            return Place {
+                low: 0,
+                high: n.min(1),
+                t: 0.0,
+                slope: if n > 0 && x == self.at[0] { self.width(0) } else { 0.0 },
+            };
+        }
+        if x >= self.at[n] {
+            return Place { low: n - 1, high: n, t: 1.0, slope: if x == self.at[n] { self.width(n - 1) } else { 0.0 } };
+        }
+        let low = match self.per_spacing {
+            // the quotient may fall on the wrong side of a node by rounding; interpolation there is the same
+            Some(s) => (((x - self.at[0]) * s) as usize).min(n - 1),
+            None => self.at.partition_point(|a| *a <= x) - 1,
+        };
+        let slope = self.width(low);
+        Place { low, high: low + 1, t: (x - self.at[low]) * slope, slope }
+    }
+
+    #[inline]
+    fn width(&self, low: usize) -> f64 {
+        1.0 / (self.at[low + 1] - self.at[low])
+    }
+}
+
+const QUANTITIES: usize = 5;
+/// u, v, w, k, ε.
+type Node = [f64; QUANTITIES];
+
+/// A flow given on a rectilinear grid.
+#[derive(Clone, Debug)]
+pub struct Table {
+    axes: [Axis; 3],
+    nodes: Vec<Node>,
+    turbulent: bool,
+}
+
+impl Table {
+    /// Reads a file: legacy VTK by the ending `.vtk`, anything else as CSV.
+    ///
+    /// # Errors
+    /// [`TableError`], naming the file, line or node.
+    pub fn load(path: &std::path::Path) -> Result<Self, TableError> {
+        let text =
+            std::fs::read(path).map_err(|source| TableError::File { path: path.display().to_string(), source })?;
+        let ending = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_ascii_lowercase();
+        match ending.as_str() {
+            "vtk" => Self::from_vtk(&text),
+            "vtr" => Err(TableError::Xml),
+            _ => Self::from_csv(text.as_slice()),
+        }
+    }
+
+    /// Reads CSV text.
+    ///
+    /// # Errors
+    /// [`TableError`], naming the line, column or node.
+    pub fn from_csv(text: impl Read) -> Result<Self, TableError> {
+        csv::read(text)
+    }
+
+    /// Reads legacy VTK (`DATASET RECTILINEAR_GRID` or `STRUCTURED_POINTS`, ASCII or binary) with point data: a vector
+    /// array named `velocity` or `U`, or the only one there is, and optionally scalars `k` and `epsilon`, in any case.
+    ///
+    /// # Errors
+    /// [`TableError`], naming the place.
+    pub fn from_vtk(file: &[u8]) -> Result<Self, TableError> {
+        vtk::read(file)
+    }
+
+    /// Axes strictly rising and not empty; nodes with z running fastest.
+    fn new(axes: [Vec<f64>; 3], nodes: Vec<Node>, turbulent: bool) -> Self {
+        Self { axes: axes.map(Axis::new), nodes, turbulent }
+    }
+
+    /// Nodes along x, y and z.
+    pub fn size(&self) -> [usize; 3] {
+        self.axes.each_ref().map(|a| a.at.len())
+    }
+
+    /// Lowest and highest node.
+    pub fn bounds(&self) -> [[f64; 3]; 2] {
+        [self.axes.each_ref().map(|a| a.at[0]), self.axes.each_ref().map(|a| a.at[a.at.len() - 1])]
+    }
+
+    /// Whether k and ε are given.
+    pub fn is_turbulent(&self) -> bool {
+        self.turbulent
+    }
+
+    #[inline]
+    fn node(&self, i: usize, j: usize, k: usize) -> &Node {
+        &self.nodes[(i * self.axes[1].at.len() + j) * self.axes[2].at.len() + k]
+    }
+
+    /// Weighted sum of the cell's corners: `w[axis]` are the weights of its low and high faces.
+    #[inline]
+    fn blend<const N: usize>(&self, p: &[Place; 3], w: [[f64; 2]; 3]) -> [f64; N] {
+        let mut sum = [0.0; N];
+        for (i, wi) in [p[0].low, p[0].high].into_iter().zip(w[0]) {
+            for (j, wj) in [p[1].low, p[1].high].into_iter().zip(w[1]) {
+                for (k, wk) in [p[2].low, p[2].high].into_iter().zip(w[2]) {
+                    let weight = wi * wj * wk;
+                    for (s, q) in sum.iter_mut().zip(self.node(i, j, k)) {
+                        *s += weight * q;
+                    }
+                }
+            }
+        }
+        sum
+    }
+
+    #[inline]
+    fn places(&self, x: [f64; 3]) -> ([Place; 3], [[f64; 2]; 3]) {
+        let p = std::array::from_fn(|i| self.axes[i].place(x[i]));
+        let w = [0, 1, 2].map(|i: usize| {
+            let q: &Place = &p[i];
+            [1.0 - q.t, q.t]
+        });
+        (p, w)
+    }
+
+    /// Velocity at `x`, m/s.
+    #[inline]
+    pub fn velocity(&self, x: [f64; 3]) -> [f64; 3] {
+        let (p, w) = self.places(x);
+        self.blend(&p, w)
+    }
+
+    /// Everything known at `x`. A table knows no walls: distance, normal and friction velocity are the caller's to fill in.
+    pub fn sample(&self, x: [f64; 3]) -> Local {
+        let (p, w) = self.places(x);
+        let [u, v, w_, k, epsilon] = self.blend::<QUANTITIES>(&p, w);
+        let mut gradient = [[0.0; 3]; 3];
+        for j in 0..3 {
+            let mut difference = w;
+            difference[j] = [-p[j].slope, p[j].slope];
+            let column: [f64; 3] = self.blend(&p, difference);
+            for i in 0..3 {
+                gradient[i][j] = column[i];
+            }
+        }
+        Local { k, epsilon, ..Local::steady([u, v, w_], gradient) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn csv(nodes: [&[f64]; 3], f: impl Fn([f64; 3]) -> [f64; 5]) -> String {
+        let mut text = String::from("u,v,w,k,epsilon,z,x,y\n");
+        for &z in nodes[2] {
+            for &x in nodes[0] {
+                for &y in nodes[1] {
+                    let q = f([x, y, z]);
+                    text += &format!("{},{},{},{},{},{z},{x},{y}\n", q[0], q[1], q[2], q[3], q[4]);
+                }
+            }
+        }
+        text
+    }
+
+    const X: &[f64] = &[-1.0, 0.0, 0.5, 2.0];
+    const Y: &[f64] = &[0.0, 1.0, 2.0];
+    const Z: &[f64] = &[1.0, 4.0];
+
+    proptest! {
+        #[test]
+        fn a_trilinear_field_is_exact(x in -1.0..2.0f64, y in 0.0..2.0f64, z in 1.0..4.0f64) {
+            let f = |[x, y, z]: [f64; 3]| [1.0 + 2.0 * x - y + z, x * y, -3.0 * z * x * y, x + 2.0, y + 1.0];
+            let table = Table::from_csv(csv([X, Y, Z], f).as_bytes()).unwrap();
+            let (local, want) = (table.sample([x, y, z]), f([x, y, z]));
+            for i in 0..3 {
+                prop_assert!((local.velocity[i] - want[i]).abs() < 1e-12);
+                prop_assert_eq!(local.velocity[i], table.velocity([x, y, z])[i]);
+            }
+            prop_assert!((local.k - want[3]).abs() < 1e-12 && (local.epsilon - want[4]).abs() < 1e-12);
+            let g = [[2.0, -1.0, 1.0], [y, x, 0.0], [-3.0 * z * y, -3.0 * z * x, -3.0 * x * y]];
+            for (got, want) in local.gradient.iter().flatten().zip(g.iter().flatten()) {
+                prop_assert!((got - want).abs() < 1e-11, "{:?} {:?}", local.gradient, g);
+            }
+        }
+    }
+
+    #[test]
+    fn outside_the_grid_its_boundary_holds() {
+        let table = Table::from_csv(csv([X, Y, Z], |[x, y, z]| [x, y, z, 1.0, 2.0]).as_bytes()).unwrap();
+        assert_eq!(table.velocity([9.0, -3.0, 2.5]), [2.0, 0.0, 2.5]);
+        let g = table.sample([9.0, -3.0, 2.5]).gradient;
+        assert_eq!((g[0][0], g[1][1], g[2][2]), (0.0, 0.0, 1.0));
+        assert_eq!(table.bounds(), [[-1.0, 0.0, 1.0], [2.0, 2.0, 4.0]]);
+        assert!(table.velocity([f64::NAN; 3]).iter().all(|c| c.is_finite()));
+    }
+
+    #[test]
+    fn fewer_dimensions() {
+        let line = Table::from_csv("y,u\n0,0\n0.5,1\n1,4\n".as_bytes()).unwrap();
+        assert_eq!(line.size(), [1, 3, 1]);
+        assert_eq!(line.velocity([7.0, 0.75, -7.0]), [2.5, 0.0, 0.0]);
+        assert_eq!(line.sample([7.0, 0.75, -7.0]).gradient, [[0.0, 6.0, 0.0], [0.0; 3], [0.0; 3]]);
+        let constant = Table::from_csv("u,w\n1,2\n".as_bytes()).unwrap();
+        assert_eq!(constant.velocity([1.0; 3]), [1.0, 0.0, 2.0]);
+    }
+}

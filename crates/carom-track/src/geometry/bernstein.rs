@@ -1,0 +1,264 @@
+//! Polynomials on [0, 1] in Bernstein form, and their first downward root.
+//!
+//! The coefficients bound the polynomial: where all are positive there is no root, so a crossing can be ruled out (or
+//! isolated by halving) without sampling, and two crossings within one step are never missed. See Farin, *Curves and
+//! Surfaces for CAGD* (2002), chapter 5; Mourrain & Pavone 2009, doi:10.1016/j.jsc.2008.04.016, for the root isolation.
+
+/// A polynomial of degree N − 1 on [0, 1] by its Bernstein coefficients.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bernstein<const N: usize>(pub [f64; N]);
+
+/// Halvings after which an interval is a point: 2⁻⁵² of the step.
+const DEEPEST: u32 = 52;
+
+impl<const N: usize> Bernstein<N> {
+    /// Value and derivative by de Casteljau's recurrence.
+    #[inline]
+    pub fn value_and_slope(&self, theta: f64) -> (f64, f64) {
+        let mut c = self.0;
+        let mut slope = 0.0;
+        for top in (1..N).rev() {
+            if top == 1 {
+                slope = (c[1] - c[0]) * (N - 1) as f64;
+            }
+            for i in 0..top {
+                c[i] += theta * (c[i + 1] - c[i]);
+            }
+        }
+        (c[0], slope)
+    }
+
+    /// Value.
+    pub fn value(&self, theta: f64) -> f64 {
+        self.value_and_slope(theta).0
+    }
+
+    /// The lower bound that the coefficients give.
+    #[inline]
+    pub fn lower_bound(&self) -> f64 {
+        self.0.iter().copied().fold(f64::INFINITY, f64::min)
+    }
+
+    /// The polynomial q with p(θ) = p(0) + θ q(θ).
+    ///
+    /// It is written with as many coefficients as p, one degree higher than it needs.
+    #[must_use]
+    #[inline]
+    pub fn deflated(&self) -> Self {
+        let degree = (N - 1) as f64;
+        // q of degree N − 2, then raised by one degree
+        let low = |i: usize| (self.0[i + 1] - self.0[0]) * (degree / (i + 1) as f64);
+        let mut q = [0.0; N];
+        for (i, q) in q.iter_mut().enumerate() {
+            let share = i as f64 / degree;
+            let before = if i > 0 { share * low(i - 1) } else { 0.0 };
+            let here = if i + 1 < N { (1.0 - share) * low(i) } else { 0.0 };
+            *q = before + here;
+        }
+        Self(q)
+    }
+
+    /// The sum of two polynomials.
+    #[must_use]
+    pub fn plus(&self, other: &Self) -> Self {
+        let mut sum = *self;
+        sum.0.iter_mut().zip(other.0).for_each(|(s, o)| *s += o);
+        sum
+    }
+
+    /// The polynomial times a number, plus another number.
+    #[must_use]
+    #[inline]
+    pub fn scaled(&self, factor: f64, shift: f64) -> Self {
+        Self(self.0.map(|c| c * factor + shift))
+    }
+
+    fn split(&self) -> (Self, Self) {
+        let (mut left, mut right) = (*self, *self);
+        let mut c = self.0;
+        for k in 0..N {
+            left.0[k] = c[0];
+            right.0[N - 1 - k] = c[N - 1 - k];
+            for i in 0..N - 1 - k {
+                c[i] = 0.5 * (c[i] + c[i + 1]);
+            }
+        }
+        (left, right)
+    }
+
+    #[inline]
+    fn sign_changes(&self) -> u32 {
+        (1..N).map(|i| u32::from((self.0[i - 1] > 0.0) != (self.0[i] > 0.0))).sum()
+    }
+
+    /// Whether the polynomial falls below zero right after θ = 0, where it is zero or starts.
+    pub fn leads_down(&self) -> bool {
+        self.0.iter().find(|c| **c != 0.0).is_some_and(|c| *c < 0.0)
+    }
+
+    /// The first θ in (0, 1] where the polynomial goes from positive to zero or below, and which `accept` takes.
+    #[inline]
+    pub fn first_descent(&self, mut accept: impl FnMut(f64) -> bool) -> Option<f64> {
+        match self.sign_changes() {
+            0 => None,
+            // the usual case, without the recursion
+            1 => {
+                let theta = if self.0[0] > 0.0 { self.refine(0.0, 1.0) } else { return None };
+                accept(theta).then_some(theta)
+            }
+            _ => self.descend(*self, 0.0, 1.0, DEEPEST, &mut accept),
+        }
+    }
+
+    fn descend(&self, part: Self, low: f64, high: f64, depth: u32, accept: &mut dyn FnMut(f64) -> bool) -> Option<f64> {
+        match part.sign_changes() {
+            0 => None,
+            1 => {
+                let theta = if part.0[0] > 0.0 { self.refine(low, high) } else { return None };
+                accept(theta).then_some(theta)
+            }
+            _ if depth == 0 => {
+                let descends = part.0[0] > 0.0 && part.0[N - 1] <= 0.0;
+                (descends && accept(high)).then_some(high)
+            }
+            _ => {
+                let (left, right) = part.split();
+                let middle = 0.5 * (low + high);
+                self.descend(left, low, middle, depth - 1, accept)
+                    .or_else(|| self.descend(right, middle, high, depth - 1, accept))
+            }
+        }
+    }
+
+    /// Coefficients of the powers of θ.
+    #[inline]
+    fn powers(&self) -> [f64; N] {
+        let mut m = self.0;
+        for k in 1..N {
+            // the k-th differences, of which the first stays at m[k]
+            for i in (k..N).rev() {
+                m[i] -= m[i - 1];
+            }
+        }
+        let mut binomial = 1.0;
+        for (k, m) in m.iter_mut().enumerate().skip(1) {
+            binomial *= (N - k) as f64 / k as f64;
+            *m *= binomial;
+        }
+        m
+    }
+
+    /// The root in a bracket that holds exactly one, positive at `low`: Newton's method kept inside the bracket.
+    fn refine(&self, mut low: f64, mut high: f64) -> f64 {
+        // where the chord between the ends crosses: close for the gentle curves of a step
+        let (at_low, at_high) = if low == 0.0 && high == 1.0 {
+            (self.0[0], self.0[N - 1])
+        } else {
+            (self.value(low), self.value(high))
+        };
+        let m = self.powers();
+        let chord = low + (high - low) * at_low / (at_low - at_high);
+        let mut theta = if chord > low && chord < high { chord } else { 0.5 * (low + high) };
+        for _ in 0..100 {
+            let (mut value, mut slope) = (m[N - 1], 0.0);
+            for c in m.iter().rev().skip(1) {
+                slope = slope * theta + value;
+                value = value * theta + c;
+            }
+            if value > 0.0 {
+                low = theta;
+            } else {
+                high = theta;
+            }
+            let newton = theta - value / slope;
+            if newton > low && newton < high {
+                // Newton's method squares what is left: 1e-9 of θ becomes rounding
+                if (newton - theta).abs() <= 1e-9 * theta {
+                    return newton;
+                }
+                theta = newton;
+            } else {
+                let middle = 0.5 * (low + high);
+                if middle <= low || middle >= high {
+                    return high;
+                }
+                theta = middle;
+            }
+        }
+        theta
+    }
+}
+
+impl Bernstein<5> {
+    /// The product of two quartics.
+    #[must_use]
+    pub fn times(&self, other: &Self) -> Bernstein<9> {
+        const FOUR: [f64; 5] = [1.0, 4.0, 6.0, 4.0, 1.0];
+        const EIGHT: [f64; 9] = [1.0, 8.0, 28.0, 56.0, 70.0, 56.0, 28.0, 8.0, 1.0];
+        let mut product = [0.0; 9];
+        for (i, a) in self.0.iter().enumerate() {
+            for (j, b) in other.0.iter().enumerate() {
+                product[i + j] += FOUR[i] * FOUR[j] / EIGHT[i + j] * a * b;
+            }
+        }
+        Bernstein(product)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn binomial(n: usize, k: usize) -> f64 {
+        (0..k).fold(1.0, |b, i| b * (n - i) as f64 / (i + 1) as f64)
+    }
+
+    /// Bernstein coefficients of Σ mᵢ θⁱ.
+    fn from_monomials(m: &[f64; 5]) -> Bernstein<5> {
+        Bernstein([0, 1, 2, 3, 4].map(|i| (0..=i).map(|k| m[k] * binomial(i, k) / binomial(4, k)).sum()))
+    }
+
+    #[test]
+    fn first_of_two_descents_within_one_step_is_found() {
+        // (θ − 0.2)(θ − 0.3)(θ − 0.7)(θ − 0.9): down at 0.2, up at 0.3, down at 0.7, up at 0.9
+        let p = from_monomials(&[0.0378, -0.411, 1.49, -2.1, 1.0]);
+        let mut all = Vec::new();
+        let none = p.first_descent(|t| {
+            all.push(t);
+            false
+        });
+        assert!(none.is_none());
+        assert_eq!(all.len(), 2, "{all:?}");
+        assert!((all[0] - 0.2).abs() < 1e-12 && (all[1] - 0.7).abs() < 1e-12, "{all:?}");
+    }
+
+    #[test]
+    fn product_and_deflation_keep_values() {
+        let p = from_monomials(&[0.0, 2.0, -1.0, 0.5, 0.25]);
+        let q = from_monomials(&[1.0, -3.0, 1.5, 0.0, 2.0]);
+        for i in 1..=20 {
+            let t = f64::from(i) / 20.0;
+            assert!((p.times(&q).value(t) - p.value(t) * q.value(t)).abs() < 1e-13);
+            assert!((t * p.deflated().value(t) - p.value(t)).abs() < 1e-14);
+            assert!((q.0[0] + t * q.deflated().value(t) - q.value(t)).abs() < 1e-14);
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn agrees_with_dense_sampling(c in prop::array::uniform5(-1.0f64..1.0), first in 0.01f64..1.0) {
+            let mut c = c;
+            c[0] = first;
+            let p = Bernstein(c);
+            let found = p.first_descent(|_| true);
+            let sampled = (1..=4000).map(|i| f64::from(i) / 4000.0).find(|t| p.value(*t) < -1e-9);
+            match (found, sampled) {
+                (Some(t), Some(s)) => prop_assert!(t <= s + 1e-9 && p.value(t).abs() < 1e-9),
+                (None, Some(s)) => prop_assert!(false, "missed the crossing before {s}"),
+                (Some(t), None) => prop_assert!(p.value(t).abs() < 1e-9),
+                (None, None) => {}
+            }
+        }
+    }
+}

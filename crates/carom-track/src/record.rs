@@ -1,0 +1,137 @@
+//! What a run tells as it goes.
+
+use crate::tracker::Particle;
+use crate::vector::Vec3;
+
+/// How a particle ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Fate {
+    /// Held by adhesion.
+    Captured,
+    /// At rest on a wall, its bounces below the stated height.
+    Settled,
+    /// It met a `trap` wall.
+    Trapped,
+    /// It left through an `escape` wall.
+    Escaped,
+    /// Still flying when the run ended.
+    Airborne,
+}
+
+impl Fate {
+    /// All of them, in the order of the results.
+    pub const ALL: [Self; 5] = [Self::Captured, Self::Settled, Self::Trapped, Self::Escaped, Self::Airborne];
+
+    /// The word in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Captured => "captured",
+            Self::Settled => "settled",
+            Self::Trapped => "trapped",
+            Self::Escaped => "escaped",
+            Self::Airborne => "airborne",
+        }
+    }
+}
+
+/// What an impact led to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Event {
+    /// It flies on.
+    Rebound,
+    /// Adhesion holds it.
+    Capture,
+    /// Its next bounce would rise less than the stated height: it stays.
+    Settle,
+    /// The wall traps all.
+    Trap,
+    /// It leaves the domain.
+    Escape,
+}
+
+impl Event {
+    /// The word in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Rebound => "rebound",
+            Self::Capture => "capture",
+            Self::Settle => "settle",
+            Self::Trap => "trap",
+            Self::Escape => "escape",
+        }
+    }
+}
+
+/// One impact, speeds relative to the wall.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ImpactRecord {
+    /// The particle's number.
+    pub particle: u64,
+    /// Time, s.
+    pub time: f64,
+    /// Centre of the sphere, m.
+    pub position: Vec3,
+    /// Unit normal of the wall.
+    pub normal: Vec3,
+    /// Index of the wall.
+    pub wall: usize,
+    /// Diameter, m.
+    pub diameter: f64,
+    /// Real particles it stands for.
+    pub weight: f64,
+    /// Speed towards the wall, m/s.
+    pub normal_speed_in: f64,
+    /// Speed along the wall, m/s.
+    pub tangential_speed_in: f64,
+    /// Spin, rad/s, positive when it rolls forward.
+    pub spin_in: f64,
+    /// e; NaN where the wall has none.
+    pub restitution: f64,
+    /// Impulse ratio; NaN where there is none.
+    pub impulse_ratio: f64,
+    /// What it led to.
+    pub event: Event,
+    /// Speed from the wall, m/s; through it for an escape.
+    pub normal_speed_out: f64,
+    /// Speed along the wall, m/s.
+    pub tangential_speed_out: f64,
+    /// Spin, rad/s.
+    pub spin_out: f64,
+    /// Where the incident energy went, as fractions; all zero where no law decides.
+    pub energy: carom::Energy,
+}
+
+/// How a particle ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct End {
+    /// As it was injected.
+    pub particle: Particle,
+    /// Its fate.
+    pub fate: Fate,
+    /// The wall that ended it.
+    pub wall: Option<usize>,
+    /// When, s.
+    pub time: f64,
+    /// Where, m.
+    pub position: Vec3,
+    /// Velocity then, m/s.
+    pub velocity: Vec3,
+    /// Spin then, rad/s.
+    pub spin: Vec3,
+    /// Trial steps it took.
+    pub steps: u64,
+}
+
+/// Who listens to a run. Events of one particle come in order.
+pub trait Sink {
+    /// A particle begins; `true` if the points of its path are wanted.
+    fn start(&mut self, particle: &Particle) -> bool;
+    /// An impact.
+    fn impact(&mut self, impact: &ImpactRecord);
+    /// A point of a wanted path.
+    fn point(&mut self, particle: u64, time: f64, position: Vec3, velocity: Vec3, spin: Vec3);
+    /// A particle ended.
+    fn end(&mut self, end: &End);
+    /// A particle was left where it was because its steps ran out.
+    fn stalled(&mut self) {}
+}

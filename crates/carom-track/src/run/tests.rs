@@ -1,0 +1,172 @@
+use super::*;
+use carom::material::Library;
+use std::fs;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// 5 000 spheres of all sizes between a floor they stick or bounce on and a ceiling, and an outlet.
+pub(super) const CASE: &str = r#"
+seed = 3
+[flow]
+kind = "uniform"
+velocity = ["1 m/s", "0 m/s", "0 m/s"]
+[forces]
+gravity = ["0 m/s2", "-9.81 m/s2", "0 m/s2"]
+[[wall]]
+name = "floor"
+plane = { point = [0, 0, 0], normal = [0, 1, 0] }
+law = "plate"
+[[wall]]
+name = "ceiling"
+plane = { point = [0, 0.02, 0], normal = [0, -1, 0] }
+law = "trap"
+[[wall]]
+name = "outlet"
+plane = { point = [0.2, 0, 0], normal = [-1, 0, 0] }
+law = "escape"
+[law.plate]
+surface = "silicon"
+normal = "ea"
+friction = 0.2
+[[injection]]
+name = "fine"
+material = "copper"
+diameter = { lognormal = { median = "40 um", gsd = 1.5 } }
+count = 3000
+position = { box = [["0 m", "5 mm", "0 m"], ["0 m", "15 mm", "10 mm"]] }
+velocity = ["1 m/s", "-1 m/s", "0 m/s"]
+[[injection]]
+name = "coarse"
+material = "stainless-steel"
+diameter = { table = { diameter = ["50 um", "100 um"], amount = [1, 2] } }
+mass = "1 mg"
+parcels = 2000
+position = ["0 m", "10 mm", "0 m"]
+velocity = ["1 m/s", "1 m/s", "0 m/s"]
+[run]
+until = "0.1 s"
+"#;
+
+fn case() -> Case {
+    Case::from_toml(CASE, Path::new("case.toml"), &Library::builtin()).unwrap()
+}
+
+fn files(folder: &Path) -> [Vec<u8>; 3] {
+    [files::SUMMARY, files::IMPACTS, files::TRAJECTORIES].map(|n| fs::read(folder.join(n)).unwrap())
+}
+
+fn options(out: &Path, threads: usize) -> RunOptions {
+    RunOptions { threads, out: Some(out.to_owned()), ..RunOptions::default() }
+}
+
+#[test]
+fn threads_shards_and_order_leave_no_trace() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let case = case();
+    let whole = run(&case, &options(&at("one"), 1), &Silent).unwrap();
+    run(&case, &options(&at("three"), 3), &Silent).unwrap();
+    assert_eq!(files(&at("one")), files(&at("three")));
+    for of in [2, 3, 7] {
+        let folders: Vec<PathBuf> = (1..=of).map(|i| at(&format!("{i}-{of}"))).collect();
+        for (i, out) in folders.iter().enumerate() {
+            let shard = Some(Shard { index: i as u64 + 1, of });
+            run(&case, &RunOptions { shard, ..options(out, 2) }, &Silent).unwrap();
+        }
+        let mut reversed = folders.clone();
+        reversed.reverse();
+        assert_eq!(merge(&reversed, &at(&format!("merged-{of}"))).unwrap(), whole);
+        assert_eq!(files(&at("one")), files(&at(&format!("merged-{of}"))));
+        assert!(merge(&folders[1..], &at("missing")).unwrap_err().to_string().contains(&format!("shard 1/{of} is missing")));
+    }
+}
+
+#[test]
+fn nothing_is_lost_and_nothing_invented() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = case();
+    let s = run(&case, &options(folder.path(), 2), &Silent).unwrap();
+    assert_eq!(s.injected.count, 5000);
+    assert_eq!(s.fates.iter().map(|f| f.count).sum::<u64>(), 5000);
+    assert_eq!(s.lost(), 0);
+    assert_eq!(s.stalled, 0);
+    let mut sum = crate::exact_sum::ExactSum::default();
+    s.fates.iter().for_each(|f| sum.merge(&f.mass));
+    assert_eq!(sum, s.injected.mass);
+    let coarse = case.injections[1].injection.total_mass().unwrap();
+    assert!((coarse - 1e-6).abs() < 1e-20);
+    let json: serde_json::Value = serde_json::from_slice(&fs::read(folder.path().join("summary.json")).unwrap()).unwrap();
+    assert_eq!(json["injected"], 5000);
+    assert_eq!(json["fates"]["lost"], 0);
+    let named: u64 = ["captured", "settled", "trapped", "escaped", "airborne"].iter().map(|f| json["fates"][f].as_u64().unwrap()).sum();
+    assert_eq!(named, 5000);
+    let mut rows = csv::Reader::from_path(folder.path().join("impacts.csv")).unwrap();
+    let mut last = (0u64, 0.0f64);
+    let mut impacts = 0;
+    for row in rows.records() {
+        let row = row.unwrap();
+        let key = (row[0].parse().unwrap(), row[1].parse().unwrap());
+        assert!(key >= last, "{key:?} after {last:?}");
+        last = key;
+        impacts += 1;
+    }
+    assert_eq!(impacts, s.walls.iter().map(|w| w.impacts).sum::<u64>());
+}
+
+/// Stops a run after some blocks by an error at its own hands: the checkpoint must carry it over.
+struct StopAfter<'a>(&'a AtomicU64);
+
+impl Progress for StopAfter<'_> {
+    fn particles(&self, done: u64, _: u64) {
+        self.0.store(done, Ordering::Relaxed);
+    }
+}
+
+#[test]
+fn resuming_drops_torn_rows_and_goes_on() {
+    let folder = tempfile::tempdir().unwrap();
+    let (whole, torn) = (folder.path().join("whole"), folder.path().join("torn"));
+    let case = case();
+    run(&case, &options(&whole, 1), &Silent).unwrap();
+    run(&case, &options(&torn, 1), &Silent).unwrap();
+    // as if killed: the checkpoint of an earlier block, and half a row more than it knows of
+    let mut state = State::new(&case, Shard::WHOLE, 0..5);
+    let mut lengths = [crate::block::IMPACTS_HEADER.len(), crate::block::TRAJECTORIES_HEADER.len()];
+    for b in 0..2 {
+        let block = block::track(&case, b * block::SIZE..(b + 1) * block::SIZE, Wanted { impacts: true, trajectories: true });
+        state.summary.merge(&block.summary);
+        lengths[0] += block.impacts.len();
+        lengths[1] += block.trajectories.len();
+    }
+    (state.next, state.impacts, state.trajectories) = (2, lengths[0] as u64, lengths[1] as u64);
+    fs::write(torn.join(files::CHECKPOINT), serde_json::to_string(&state).unwrap()).unwrap();
+    let done = AtomicU64::new(0);
+    run(&case, &RunOptions { resume: true, ..options(&torn, 2) }, &StopAfter(&done)).unwrap();
+    assert_eq!(files(&whole), files(&torn));
+    assert_eq!(done.load(Ordering::Relaxed), 5000);
+    // once more: nothing left to do, nothing changed
+    run(&case, &RunOptions { resume: true, ..options(&torn, 2) }, &Silent).unwrap();
+    assert_eq!(files(&whole), files(&torn));
+}
+
+#[test]
+fn resuming_something_else_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    run(&case(), &options(folder.path(), 2), &Silent).unwrap();
+    let other = Case::from_toml(&CASE.replace("seed = 3", "seed = 4"), Path::new("case.toml"), &Library::builtin()).unwrap();
+    let resume = RunOptions { resume: true, ..options(folder.path(), 2) };
+    assert!(run(&other, &resume, &Silent).unwrap_err().to_string().contains("case file was changed"));
+    let shard = RunOptions { shard: Some(Shard { index: 1, of: 2 }), ..resume };
+    assert!(run(&case(), &shard, &Silent).unwrap_err().to_string().contains("another shard"));
+    let nowhere = RunOptions { resume: true, ..RunOptions::default() };
+    assert!(matches!(run(&case(), &nowhere, &Silent), Err(RunError::NoFolder)));
+}
+
+#[test]
+fn shards_are_read_with_care() {
+    assert_eq!("2/8".parse(), Ok(Shard { index: 2, of: 8 }));
+    for bad in ["0/8", "9/8", "2", "a/b", "1/0", ""] {
+        assert!(bad.parse::<Shard>().is_err(), "{bad}");
+    }
+    let parts: Vec<_> = (1..=3).map(|index| Shard { index, of: 3 }.blocks(10)).collect();
+    assert_eq!(parts, [0..3, 3..6, 6..10]);
+}

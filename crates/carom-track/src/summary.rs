@@ -1,0 +1,172 @@
+//! What a run came to: counts, and masses summed without rounding.
+
+use crate::exact_sum::ExactSum;
+use crate::record::{End, Event, Fate, ImpactRecord};
+use serde::Serialize;
+use serde::ser::SerializeMap;
+
+/// How many, and how much of it, kg.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, serde::Deserialize)]
+pub struct Amount {
+    /// Particles (parcels where they stand for more than one).
+    pub count: u64,
+    /// Mass.
+    pub mass: ExactSum,
+}
+
+impl Amount {
+    fn add(&mut self, mass: f64) {
+        self.count += 1;
+        self.mass.add(mass);
+    }
+
+    fn merge(&mut self, other: &Self) {
+        self.count += other.count;
+        self.mass.merge(&other.mass);
+    }
+}
+
+/// What happened at one wall.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, serde::Deserialize)]
+pub struct WallTally {
+    /// Its name.
+    pub name: String,
+    /// Impacts on it, the last ones included.
+    pub impacts: u64,
+    /// Rebounds from it.
+    pub rebounds: u64,
+    /// Ends at it, by fate in the order of [`Fate::ALL`].
+    pub ends: [Amount; 5],
+}
+
+/// A run, or a part of one. Parts add up to the whole, to the bit, in any order.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, serde::Deserialize)]
+pub struct Summary {
+    /// Title of the case.
+    pub title: String,
+    /// All that was injected.
+    pub injected: Amount,
+    /// By fate, in the order of [`Fate::ALL`].
+    pub fates: [Amount; 5],
+    /// By wall.
+    pub walls: Vec<WallTally>,
+    /// Particles left where they were because their steps ran out; they count as airborne.
+    pub stalled: u64,
+}
+
+impl Summary {
+    /// Nothing yet.
+    pub fn new(title: &str, walls: impl Iterator<Item = String>) -> Self {
+        let walls = walls.map(|name| WallTally { name, ..WallTally::default() }).collect();
+        Self { title: title.to_owned(), walls, ..Self::default() }
+    }
+
+    /// How many ended that way.
+    pub fn count(&self, fate: Fate) -> u64 {
+        self.fates[fate as usize].count
+    }
+
+    /// Particles without a fate: always 0.
+    pub fn lost(&self) -> u64 {
+        self.injected.count - self.fates.iter().map(|f| f.count).sum::<u64>().min(self.injected.count)
+    }
+
+    pub(crate) fn start(&mut self, mass: f64) {
+        self.injected.add(mass);
+    }
+
+    pub(crate) fn impact(&mut self, impact: &ImpactRecord) {
+        if let Some(wall) = self.walls.get_mut(impact.wall) {
+            wall.impacts += 1;
+            wall.rebounds += u64::from(impact.event == Event::Rebound);
+        }
+    }
+
+    pub(crate) fn end(&mut self, end: &End) {
+        let mass = end.particle.mass();
+        self.fates[end.fate as usize].add(mass);
+        if let Some(wall) = end.wall.and_then(|w| self.walls.get_mut(w)) {
+            wall.ends[end.fate as usize].add(mass);
+        }
+    }
+
+    /// Adds another part.
+    pub fn merge(&mut self, other: &Self) {
+        self.injected.merge(&other.injected);
+        for (a, b) in self.fates.iter_mut().zip(&other.fates) {
+            a.merge(b);
+        }
+        for (a, b) in self.walls.iter_mut().zip(&other.walls) {
+            a.impacts += b.impacts;
+            a.rebounds += b.rebounds;
+            for (a, b) in a.ends.iter_mut().zip(&b.ends) {
+                a.merge(b);
+            }
+        }
+        self.stalled += other.stalled;
+    }
+
+    /// The text of `summary.json`.
+    pub fn to_json(&self) -> String {
+        // numbers and names only: nothing here can fail to be written
+        serde_json::to_string_pretty(&Report(self)).unwrap_or_default() + "\n"
+    }
+}
+
+struct Report<'a>(&'a Summary);
+struct Fates<'a>(&'a Summary);
+struct Masses<'a>(&'a [Amount; 5]);
+struct Walls<'a>(&'a [WallTally]);
+struct One<'a>(&'a WallTally);
+
+impl Serialize for Report<'_> {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let s = self.0;
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("title", &s.title)?;
+        map.serialize_entry("injected", &s.injected.count)?;
+        map.serialize_entry("fates", &Fates(s))?;
+        map.serialize_entry("injected_mass", &s.injected.mass.value())?;
+        map.serialize_entry("masses", &Masses(&s.fates))?;
+        map.serialize_entry("walls", &Walls(&s.walls))?;
+        map.serialize_entry("stalled", &s.stalled)?;
+        map.end()
+    }
+}
+
+impl Serialize for Fates<'_> {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        for fate in Fate::ALL {
+            map.serialize_entry(fate.name(), &self.0.count(fate))?;
+        }
+        map.serialize_entry("lost", &self.0.lost())?;
+        map.end()
+    }
+}
+
+impl Serialize for Masses<'_> {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(Fate::ALL.into_iter().map(|f| (f.name(), self.0[f as usize].mass.value())))
+    }
+}
+
+impl Serialize for Walls<'_> {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|w| (&w.name, One(w))))
+    }
+}
+
+impl Serialize for One<'_> {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("impacts", &self.0.impacts)?;
+        map.serialize_entry("rebounds", &self.0.rebounds)?;
+        for fate in [Fate::Captured, Fate::Settled, Fate::Trapped, Fate::Escaped] {
+            let amount = &self.0.ends[fate as usize];
+            map.serialize_entry(fate.name(), &amount.count)?;
+            map.serialize_entry(&format!("{}_mass", fate.name()), &amount.mass.value())?;
+        }
+        map.end()
+    }
+}

@@ -1,0 +1,346 @@
+//! From injection to fate: particles finished one by one, `W` side by side.
+//!
+//! Each of the `W` lanes holds one particle with its own time and step; a lane that is done takes the next particle.
+//! No operation mixes two lanes, so a particle's history has the same bits in any company.
+
+mod lane;
+mod meeting;
+
+use crate::domain::Domain;
+use crate::dynamics::{Bodies, Dynamics};
+use crate::force::Sphere;
+use crate::integrate::{Control, Derivative, Lanes, Lanes3, Motion, Rates, Step, growth, step};
+use crate::record::{End, Fate, Sink};
+use crate::vector::Vec3;
+use lane::Lane;
+
+/// A particle as it is injected.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Particle {
+    /// Its number in the run.
+    pub number: u64,
+    /// Index of its injection.
+    pub injection: usize,
+    /// Diameter, m.
+    pub diameter: f64,
+    /// Density, kg/m³.
+    pub density: f64,
+    /// How many real particles it stands for.
+    pub weight: f64,
+    /// Time of injection, s.
+    pub time: f64,
+    /// Position of its centre, m.
+    pub position: Vec3,
+    /// Velocity, m/s.
+    pub velocity: Vec3,
+    /// Spin, rad/s.
+    pub spin: Vec3,
+}
+
+impl Particle {
+    /// A particle of a run from its injection's.
+    pub fn new(number: u64, injection: usize, start: &crate::injection::Particle) -> Self {
+        Self {
+            number,
+            injection,
+            diameter: start.diameter,
+            density: start.density,
+            weight: start.weight,
+            time: start.time,
+            position: start.position,
+            velocity: start.velocity,
+            spin: start.spin,
+        }
+    }
+
+    /// Mass of all it stands for, kg.
+    pub fn mass(&self) -> f64 {
+        self.weight * self.density * std::f64::consts::PI / 6.0 * self.diameter.powi(3)
+    }
+}
+
+/// A height of bounce that counts as none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SettleHeight {
+    /// A fraction of the sphere's radius.
+    Radii(f64),
+    /// A length, m.
+    Length(f64),
+}
+
+impl SettleHeight {
+    /// A thousandth of the radius: far below what bounces are measured to.
+    pub const DEFAULT: Self = Self::Radii(1e-3);
+
+    fn of(self, radius: f64) -> f64 {
+        match self {
+            Self::Radii(share) => share * radius,
+            Self::Length(height) => height,
+        }
+    }
+}
+
+/// How a run is tracked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Tolerated relative error of the time and speed of a first impact.
+    pub tolerance: f64,
+    /// When the run ends, s; infinite where only the walls end it.
+    pub until: f64,
+    /// Height of bounce below which a sphere has settled.
+    pub settle_height: SettleHeight,
+    /// Steps after which a particle is left where it is.
+    pub max_steps: u64,
+    /// Seed of every random draw.
+    pub seed: u64,
+}
+
+/// Local error of a step over the tolerance of a first impact. Errors of steps add up, and a shallow approach turns an
+/// error across the wall into a larger one of the time: up to 16 times the local one in a channel of 2000 random starts.
+const PER_STEP: f64 = 1.0 / 30.0;
+
+/// What happens where a particle meets a wall.
+#[derive(Clone, Debug)]
+pub enum Behavior {
+    /// A wall law decides: one for each injection's material, or one for all.
+    Law(Vec<carom::WallLaw>),
+    /// It stays, whatever its speed.
+    Trap,
+    /// It leaves the domain.
+    Escape,
+}
+
+/// All that stays the same during a run.
+#[derive(Clone, Copy, Debug)]
+pub struct Tracker<'a, D> {
+    /// The space.
+    pub domain: &'a D,
+    /// What acts on the spheres.
+    pub dynamics: &'a Dynamics,
+    /// What each wall of the domain does.
+    pub behaviors: &'a [Behavior],
+    /// How to track.
+    pub settings: Settings,
+}
+
+/// The lanes at work.
+struct Crew<const W: usize> {
+    lanes: [Lane; W],
+    /// Which lanes have a particle.
+    busy: [bool; W],
+    motion: Motion<W>,
+    rates: Rates<W>,
+    bodies: Bodies<W>,
+    h: Lanes<W>,
+    step: Step<W>,
+}
+
+/// The forces on the spheres of all lanes.
+struct Acting<'a, const W: usize, D> {
+    dynamics: &'a Dynamics,
+    domain: &'a D,
+    bodies: &'a Bodies<W>,
+}
+
+impl<const W: usize, D: Domain> Derivative<W> for Acting<'_, W, D> {
+    #[inline(always)]
+    fn rates(&self, motion: &Motion<W>, out: &mut Rates<W>) {
+        self.dynamics.rates(self.domain, self.bodies, motion, out);
+    }
+}
+
+impl<D: Domain> Tracker<'_, D> {
+    /// Tracks particles to their ends, with the widest instructions the machine has. The sink hears of each particle's
+    /// events in order; events of different particles interleave.
+    pub fn run(&self, particles: &mut dyn Iterator<Item = Particle>, sink: &mut dyn Sink) {
+        #[cfg(target_arch = "x86_64")]
+        {
+            if std::arch::is_x86_feature_detected!("avx512f") && std::arch::is_x86_feature_detected!("avx512dq") {
+                // SAFETY: the instructions were just found to be there.
+                return unsafe { self.run_avx512(particles, sink) };
+            }
+            if std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma") {
+                // SAFETY: the instructions were just found to be there.
+                return unsafe { self.run_avx2(particles, sink) };
+            }
+        }
+        self.run_lanes::<1>(particles, sink);
+    }
+
+    /// The same bits with one lane and no special instructions.
+    pub fn run_plain(&self, particles: &mut dyn Iterator<Item = Particle>, sink: &mut dyn Sink) {
+        self.run_lanes::<1>(particles, sink);
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx512bw,avx2,fma,bmi1,bmi2")]
+    fn run_avx512(&self, particles: &mut dyn Iterator<Item = Particle>, sink: &mut dyn Sink) {
+        self.run_lanes::<8>(particles, sink);
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2,fma,bmi1,bmi2")]
+    fn run_avx2(&self, particles: &mut dyn Iterator<Item = Particle>, sink: &mut dyn Sink) {
+        self.run_lanes::<8>(particles, sink);
+    }
+
+    #[inline(always)]
+    fn run_lanes<const W: usize>(&self, particles: &mut dyn Iterator<Item = Particle>, sink: &mut dyn Sink) {
+        let mut crew = Crew::<W> {
+            lanes: [Lane::IDLE; W],
+            busy: [false; W],
+            motion: Motion::ZERO,
+            rates: Rates::ZERO,
+            bodies: Bodies::NONE,
+            h: [0.0; W],
+            step: Step::ZERO,
+        };
+        let control = Control { tolerance: PER_STEP * self.settings.tolerance, spins: self.dynamics.spins(), place: self.dynamics.need_place(self.domain) };
+        loop {
+            let mut working = false;
+            for l in 0..W {
+                while !crew.busy[l] {
+                    let Some(particle) = particles.next() else { break };
+                    self.begin(&mut crew, l, particle, sink);
+                }
+                working |= crew.busy[l];
+            }
+            if !working {
+                return;
+            }
+            for l in 0..W {
+                crew.h[l] = if crew.busy[l] { crew.lanes[l].next_step(self.settings.until) } else { 0.0 };
+            }
+            let forces = Acting { dynamics: self.dynamics, domain: self.domain, bodies: &crew.bodies };
+            step(&crew.motion, &crew.rates, &crew.h, control, &forces, &mut crew.step);
+            let clear = self.domain.clear(&crew.motion.x, &crew.step.path, &crew.bodies.radius);
+            let mut factor = [0.0; W];
+            for l in 0..W {
+                factor[l] = growth(crew.step.error[l]);
+            }
+            for l in 0..W {
+                if crew.busy[l] {
+                    self.advance(&mut crew, l, clear[l], factor[l], sink);
+                }
+            }
+        }
+    }
+
+    /// Puts a particle into a lane; one that has no time to fly ends at once.
+    #[inline(always)]
+    fn begin<const W: usize>(&self, crew: &mut Crew<W>, l: usize, particle: Particle, sink: &mut dyn Sink) {
+        self.dynamics.body(l, Sphere { diameter: particle.diameter, density: particle.density }, &mut crew.bodies);
+        for c in 0..3 {
+            crew.motion.x[c][l] = particle.position[c];
+            crew.motion.v[c][l] = particle.velocity[c];
+            crew.motion.spin[c][l] = particle.spin[c];
+        }
+        let trace = sink.start(&particle);
+        crew.lanes[l] = Lane::new(particle, trace);
+        crew.busy[l] = true;
+        if particle.time >= self.settings.until {
+            finish(crew, l, Fate::Airborne, None, sink);
+            return;
+        }
+        crew.lanes[l].step = self.dynamics.first_step(crew.bodies.drag_rate[l]);
+        self.refresh(crew, l);
+    }
+
+    /// Rates of one lane after its motion was changed.
+    #[inline(always)]
+    fn refresh<const W: usize>(&self, crew: &mut Crew<W>, l: usize) {
+        let (x, v, spin) = motion_of(&crew.motion, l);
+        let rates = self.rates_at(&crew.bodies, l, x, v, spin);
+        for c in 0..3 {
+            crew.rates.a[c][l] = rates.a[c][0];
+            crew.rates.alpha[c][l] = rates.alpha[c][0];
+        }
+    }
+
+    #[inline(always)]
+    fn rates_at<const W: usize>(&self, bodies: &Bodies<W>, l: usize, x: Vec3, v: Vec3, spin: Vec3) -> Rates<1> {
+        let column = |v: Vec3| [[v[0]], [v[1]], [v[2]]];
+        let one = Motion::<1> { x: column(x), v: column(v), spin: column(spin) };
+        let mut rates = Rates::ZERO;
+        self.dynamics.rates(self.domain, &bodies.one(l), &one, &mut rates);
+        rates
+    }
+
+    /// Takes a trial step of one lane: refuses it, accepts it, or ends it at a wall.
+    #[inline(always)]
+    fn advance<const W: usize>(&self, crew: &mut Crew<W>, l: usize, clear: bool, factor: f64, sink: &mut dyn Sink) {
+        let h = crew.h[l];
+        let good = crew.step.error[l] <= 1.0;
+        let lane = &mut crew.lanes[l];
+        lane.steps += 1;
+        if lane.steps > self.settings.max_steps || (!good && lane.time + h == lane.time) {
+            sink.stalled();
+            finish(crew, l, Fate::Airborne, None, sink);
+            return;
+        }
+        if !good {
+            lane.step = h * factor.min(0.9);
+            return;
+        }
+        if !clear && let Some(hit) = self.domain.next_wall(&path_of(crew, l), crew.bodies.radius[l]) {
+            let lane = &mut crew.lanes[l];
+            let theta = hit.meeting.theta;
+            if theta > 0.0 && theta < 1e-3 && !lane.fitted {
+                // far down a long step the root keeps too few digits: look again with a step that fits
+                lane.step = 2.0 * theta * h;
+                lane.fitted = true;
+            } else {
+                self.meet(crew, l, &hit, sink);
+            }
+            return;
+        }
+        if crew.lanes[l].trace {
+            lane::trace(crew, l, 1.0, sink);
+        }
+        let lane = &mut crew.lanes[l];
+        let last = h >= self.settings.until - lane.time;
+        lane.time = if last { self.settings.until } else { lane.time + h };
+        lane.step = h * factor;
+        lane.fitted = false;
+        lane.standing = 0;
+        for c in 0..3 {
+            crew.motion.x[c][l] = crew.step.end.x[c][l];
+            crew.motion.v[c][l] = crew.step.end.v[c][l];
+            crew.motion.spin[c][l] = crew.step.end.spin[c][l];
+            crew.rates.a[c][l] = crew.step.rates.a[c][l];
+            crew.rates.alpha[c][l] = crew.step.rates.alpha[c][l];
+        }
+        if last {
+            finish(crew, l, Fate::Airborne, None, sink);
+        }
+    }
+}
+
+/// Position, velocity and spin of one lane.
+#[inline(always)]
+fn motion_of<const W: usize>(m: &Motion<W>, l: usize) -> (Vec3, Vec3, Vec3) {
+    let at = |v: &Lanes3<W>| [v[0][l], v[1][l], v[2][l]];
+    (at(&m.x), at(&m.v), at(&m.spin))
+}
+
+#[inline(always)]
+fn path_of<const W: usize>(crew: &Crew<W>, l: usize) -> crate::geometry::Path {
+    let x = &crew.motion.x;
+    let start = [x[0][l], x[1][l], x[2][l]];
+    crate::geometry::Path { start, points: lane::points(&crew.step.path, l) }
+}
+
+/// Tells the sink how a lane's particle ended; the lane is free then.
+#[inline(always)]
+fn finish<const W: usize>(crew: &mut Crew<W>, l: usize, fate: Fate, wall: Option<usize>, sink: &mut dyn Sink) {
+    crew.busy[l] = false;
+    let lane = &crew.lanes[l];
+    let (position, velocity, spin) = motion_of(&crew.motion, l);
+    if lane.trace {
+        sink.point(lane.particle.number, lane.time, position, velocity, spin);
+    }
+    sink.end(&End { particle: lane.particle, fate, wall, time: lane.time, position, velocity, spin, steps: lane.steps });
+}
+
+#[cfg(test)]
+mod tests;

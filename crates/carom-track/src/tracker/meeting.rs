@@ -1,0 +1,186 @@
+//! What happens at a wall.
+
+use super::lane::{Lane, points, trace};
+use super::{Behavior, Crew, Particle, Tracker, finish, motion_of};
+use crate::domain::{Domain, Hit};
+use crate::geometry::evaluate;
+use crate::record::{Event, Fate, ImpactRecord, Sink};
+use carom::{Energy, Fate as LawFate, Impact, WallLaw};
+use crate::vector::{Vec3, add, cross, dot, norm, scale, sub};
+
+/// Impacts in a row without any time between them after which a sphere is wedged between walls and stays.
+const WEDGED: u32 = 64;
+
+/// What an impact leaves.
+struct After {
+    event: Event,
+    velocity: Vec3,
+    spin: Vec3,
+    restitution: f64,
+    impulse_ratio: f64,
+    energy: Energy,
+}
+
+impl<D: Domain> Tracker<'_, D> {
+    /// Ends a step at a wall.
+    #[inline(always)]
+    pub(super) fn meet<const W: usize>(&self, crew: &mut Crew<W>, l: usize, hit: &Hit, sink: &mut dyn Sink) {
+        let theta = hit.meeting.theta;
+        let h = crew.h[l];
+        if crew.lanes[l].trace {
+            trace(crew, l, theta, sink);
+        }
+        let (_, v, spin) = motion_of(&crew.motion, l);
+        let v = add(v, evaluate(&points(&crew.step.speed, l), theta));
+        let spin = if self.dynamics.spins() { add(spin, evaluate(&points(&crew.step.twist, l), theta)) } else { spin };
+        let lane = &mut crew.lanes[l];
+        lane.time += theta * h;
+        lane.step = if theta > 0.1 { h } else { h * (4.0 * theta).max(1e-3) };
+        lane.fitted = false;
+        lane.standing = if theta > 0.0 { 0 } else { lane.standing + 1 };
+        lane.impacts += 1;
+        if lane.trace {
+            sink.point(lane.particle.number, lane.time, hit.meeting.position, v, spin);
+        }
+        let after = self.outcome(crew, l, hit, v, spin);
+        sink.impact(&record(&crew.lanes[l], hit, v, spin, &after));
+        put(crew, l, hit.meeting.position, after.velocity, after.spin);
+        if let Some(fate) = after.event.ends() {
+            finish(crew, l, fate, Some(hit.wall), sink);
+        } else {
+            self.refresh(crew, l);
+        }
+    }
+
+    #[inline(always)]
+    fn outcome<const W: usize>(&self, crew: &Crew<W>, l: usize, hit: &Hit, v: Vec3, spin: Vec3) -> After {
+        let lane = &crew.lanes[l];
+        let n = hit.meeting.normal;
+        let stay = |event| After {
+            event,
+            velocity: hit.wall_velocity,
+            spin: [0.0; 3],
+            restitution: 0.0,
+            impulse_ratio: f64::NAN,
+            energy: Energy::default(),
+        };
+        let Some(behavior) = self.behaviors.get(hit.wall) else { return stay(Event::Trap) };
+        let law = match behavior {
+            Behavior::Trap => return stay(Event::Trap),
+            Behavior::Escape => return After { velocity: v, spin, restitution: f64::NAN, ..stay(Event::Escape) },
+            Behavior::Law(laws) => laws.get(lane.particle.injection).or(laws.first()),
+        };
+        let Some(law) = law else { return stay(Event::Trap) };
+        let Particle { diameter, density, .. } = lane.particle;
+        // no law scatters yet: no draws are spent
+        let impact = Impact {
+            diameter,
+            density: Some(density),
+            velocity: v,
+            spin,
+            normal: n,
+            wall_velocity: hit.wall_velocity,
+            draws: [0.5; 4],
+        };
+        let Ok(out) = law.impact(&impact) else { return stay(at_rest(law, &impact)) };
+        let mut after = After {
+            event: if out.fate == LawFate::Capture { Event::Capture } else { Event::Rebound },
+            velocity: out.velocity,
+            spin: out.spin,
+            restitution: out.restitution,
+            impulse_ratio: out.impulse_ratio,
+            energy: out.energy,
+        };
+        if after.event == Event::Rebound && (lane.standing > WEDGED || self.settles(crew, l, hit, &after)) {
+            after = After { event: Event::Settle, velocity: hit.wall_velocity, spin: [0.0; 3], ..after };
+        }
+        after
+    }
+
+    /// Would the next bounce rise less than the stated height?
+    #[inline(always)]
+    fn settles<const W: usize>(&self, crew: &Crew<W>, l: usize, hit: &Hit, after: &After) -> bool {
+        let n = hit.meeting.normal;
+        let up = dot(sub(after.velocity, hit.wall_velocity), n);
+        let limit = 2.0 * self.settings.settle_height.of(crew.bodies.radius[l]);
+        let pressing = |v: Vec3| -> f64 {
+            let a = self.rates_at(&crew.bodies, l, hit.meeting.position, v, after.spin).a;
+            -(n[0] * a[0][0] + n[1] * a[1][0] + n[2] * a[2][0])
+        };
+        // drag on the way up only adds to what presses: a cheap first look before the exact one, without it
+        if up * up >= limit * pressing(after.velocity).max(0.0) && up > 0.0 {
+            return false;
+        }
+        let along = sub(after.velocity, scale(n, up));
+        let press = pressing(along);
+        if up <= 0.0 { press >= 0.0 } else { up * up < limit * press }
+    }
+}
+
+/// What becomes of a sphere that touches a wall at rest, pressed against it: held if the law captures at the slowest
+/// approach, settled if not.
+fn at_rest(law: &WallLaw, impact: &Impact) -> Event {
+    const SLOWEST: f64 = 1e-9;
+    let approaching = Impact { velocity: sub(impact.wall_velocity, scale(impact.normal, SLOWEST)), spin: [0.0; 3], ..*impact };
+    match law.impact(&approaching) {
+        Ok(out) if out.fate == LawFate::Capture => Event::Capture,
+        _ => Event::Settle,
+    }
+}
+
+#[inline(always)]
+fn put<const W: usize>(crew: &mut Crew<W>, l: usize, x: Vec3, v: Vec3, spin: Vec3) {
+    for c in 0..3 {
+        crew.motion.x[c][l] = x[c];
+        crew.motion.v[c][l] = v[c];
+        crew.motion.spin[c][l] = spin[c];
+    }
+}
+
+/// Speeds and spin before and after, relative to the wall. Spin is positive when it rolls forward along the tangential
+/// velocity (the outgoing one where there is none coming in).
+fn record(lane: &Lane, hit: &Hit, v: Vec3, spin: Vec3, after: &After) -> ImpactRecord {
+    let n = hit.meeting.normal;
+    let split = |v: Vec3| {
+        let rel = sub(v, hit.wall_velocity);
+        let up = dot(rel, n);
+        (up, sub(rel, scale(n, up)))
+    };
+    let (up_in, along_in) = split(v);
+    let (up_out, along_out) = split(after.velocity);
+    let forward = [along_in, along_out].into_iter().find(|t| norm(*t) > 0.0);
+    let rolling = forward.map(|t| scale(cross(n, t), 1.0 / norm(t)));
+    let roll = |spin: Vec3| rolling.map_or(norm(spin), |axis| dot(spin, axis));
+    ImpactRecord {
+        particle: lane.particle.number,
+        time: lane.time,
+        position: hit.meeting.position,
+        normal: n,
+        wall: hit.wall,
+        diameter: lane.particle.diameter,
+        weight: lane.particle.weight,
+        normal_speed_in: (-up_in).max(0.0),
+        tangential_speed_in: norm(along_in),
+        spin_in: roll(spin),
+        restitution: after.restitution,
+        impulse_ratio: after.impulse_ratio,
+        event: after.event,
+        normal_speed_out: if after.event == Event::Escape { -up_out } else { up_out },
+        tangential_speed_out: norm(along_out),
+        spin_out: roll(after.spin),
+        energy: after.energy,
+    }
+}
+
+impl Event {
+    /// The fate of a particle that this ends.
+    pub fn ends(self) -> Option<Fate> {
+        match self {
+            Self::Rebound => None,
+            Self::Capture => Some(Fate::Captured),
+            Self::Settle => Some(Fate::Settled),
+            Self::Trap => Some(Fate::Trapped),
+            Self::Escape => Some(Fate::Escaped),
+        }
+    }
+}

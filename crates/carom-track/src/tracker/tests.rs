@@ -1,0 +1,279 @@
+use super::*;
+use crate::domain::{Analytic, ContactAt, Wall};
+use crate::dynamics::Dynamics;
+use crate::force::{Drag, Forces};
+use crate::flow::{Flow, Fluid};
+use crate::geometry::{Cylinder, Plane, Shape};
+use crate::record::{Event, ImpactRecord};
+
+const G: f64 = 9.81;
+
+#[derive(Default)]
+struct Log {
+    impacts: Vec<ImpactRecord>,
+    ends: Vec<End>,
+    stalled: u32,
+}
+
+impl Sink for Log {
+    fn start(&mut self, _: &Particle) -> bool {
+        false
+    }
+    fn impact(&mut self, impact: &ImpactRecord) {
+        self.impacts.push(*impact);
+    }
+    fn point(&mut self, _: u64, _: f64, _: Vec3, _: Vec3, _: Vec3) {}
+    fn end(&mut self, end: &End) {
+        self.ends.push(*end);
+    }
+    fn stalled(&mut self) {
+        self.stalled += 1;
+    }
+}
+
+fn plane(name: &str, point: Vec3, normal: Vec3) -> Wall {
+    Wall { name: name.into(), shape: Shape::Plane(Plane { point, normal }), contact_at: ContactAt::Surface, velocity: [0.0; 3] }
+}
+
+fn bounce(restitution: f64) -> Behavior {
+    let law = format!("normal = \"constant\"\nrestitution = {restitution}\ntangential = \"constant\"\ntangential_restitution = 1.0\n");
+    let law = carom::spec::parse_law(&law).unwrap();
+    Behavior::Law(vec![law.compile(&carom::material::Library::builtin()).unwrap()])
+}
+
+fn dynamics(drag: Drag) -> Dynamics {
+    let forces = Forces { gravity: [0.0, -G, 0.0], buoyancy: drag != Drag::None, drag, ..Forces::default() };
+    Dynamics { fluid: Fluid::default(), forces, random_walk: None, brownian: false }
+}
+
+fn settings() -> Settings {
+    Settings { tolerance: 1e-6, until: 10.0, settle_height: SettleHeight::DEFAULT, max_steps: 1_000_000, seed: 1 }
+}
+
+fn sphere(number: u64, position: Vec3, velocity: Vec3) -> Particle {
+    Particle {
+        number,
+        injection: 0,
+        diameter: 90e-6,
+        density: 8940.0,
+        weight: 1.0,
+        time: 0.0,
+        position,
+        velocity,
+        spin: [0.0; 3],
+    }
+}
+
+fn track(domain: &Analytic, dynamics: &Dynamics, behaviors: &[Behavior], settings: Settings, particles: &[Particle]) -> Log {
+    let mut log = Log::default();
+    Tracker { domain, dynamics, behaviors, settings }.run(&mut particles.iter().copied(), &mut log);
+    assert_eq!(log.ends.len(), particles.len());
+    assert_eq!(log.stalled, 0);
+    log
+}
+
+#[test]
+fn fall_and_bounces_in_vacuum_are_analytic_to_1e_9_until_it_settles() {
+    let domain = Analytic::new(Flow::Still, vec![plane("floor", [0.0; 3], [0.0, 1.0, 0.0])]);
+    let (e, drop) = (0.8, 0.1);
+    let p = sphere(0, [0.0, drop + 45e-6, 0.0], [0.3, 0.0, 0.0]);
+    let log = track(&domain, &dynamics(Drag::None), &[bounce(e)], settings(), &[p]);
+    let mut time = (2.0 * drop / G).sqrt();
+    let mut speed = G * time;
+    for (n, hit) in log.impacts.iter().enumerate() {
+        assert!((hit.time / time - 1.0).abs() < 1e-9, "{n}: {} {time}", hit.time);
+        assert!((hit.normal_speed_in / speed - 1.0).abs() < 1e-9, "{n}: {} {speed}", hit.normal_speed_in);
+        assert!((hit.position[0] - 0.3 * time).abs() < 1e-9 * time);
+        assert!((hit.position[1] / 45e-6 - 1.0).abs() < 1e-12);
+        speed *= e;
+        time += 2.0 * speed / G;
+    }
+    // rises e^{2n} · 0.1 m: below 1e-3 radii after n = 33 impacts
+    let expected = (45e-9f64 / drop).ln() / (2.0 * e.ln());
+    assert_eq!(log.impacts.len(), expected.ceil() as usize);
+    assert_eq!(log.impacts.last().map(|i| i.event), Some(Event::Settle));
+    assert_eq!(log.ends[0].fate, Fate::Settled);
+    assert_eq!(log.ends[0].velocity, [0.0; 3]);
+}
+
+#[test]
+fn a_perfect_bouncer_bounces_to_the_end() {
+    let domain = Analytic::new(Flow::Still, vec![plane("floor", [0.0; 3], [0.0, 1.0, 0.0])]);
+    let p = sphere(0, [0.0, 0.001 + 45e-6, 0.0], [0.0; 3]);
+    let log = track(&domain, &dynamics(Drag::None), &[bounce(1.0)], settings(), &[p]);
+    let fall = (2.0 * 0.001 / G).sqrt();
+    assert_eq!(log.impacts.len(), ((10.0 / fall + 1.0) / 2.0) as usize);
+    for (n, hit) in log.impacts.iter().enumerate() {
+        let time = fall * (2 * n + 1) as f64;
+        assert!((hit.time / time - 1.0).abs() < 1e-9, "{n}: {} {time}", hit.time);
+    }
+    assert_eq!(log.ends[0].fate, Fate::Airborne);
+    assert_eq!(log.ends[0].time, 10.0);
+}
+
+/// First impact by a fourth-order Runge–Kutta method with small fixed steps and the drag law written out again.
+fn first_impact_by_small_steps(height: f64, v: [f64; 2], wind: f64) -> (f64, f64) {
+    let air = Fluid::default();
+    let (d, rho) = (90e-6, 8940.0);
+    let rate = |s: &[f64; 4]| {
+        let rel = [wind - s[2], -s[3]];
+        let re = air.density * d * rel[0].hypot(rel[1]) / air.viscosity;
+        let beta = 18.0 * air.viscosity / (rho * d * d) * (1.0 + 0.15 * re.powf(0.687));
+        [s[2], s[3], beta * rel[0], beta * rel[1] - G * (1.0 - air.density / rho)]
+    };
+    let add = |s: &[f64; 4], k: &[f64; 4], h: f64| [0, 1, 2, 3].map(|i| s[i] + h * k[i]);
+    let (mut s, mut t, h) = ([0.0, height, v[0], v[1]], 0.0, 1e-5);
+    loop {
+        let k1 = rate(&s);
+        let k2 = rate(&add(&s, &k1, h / 2.0));
+        let k3 = rate(&add(&s, &k2, h / 2.0));
+        let k4 = rate(&add(&s, &k3, h));
+        let next = [0, 1, 2, 3].map(|i| s[i] + h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]));
+        if next[1] < 45e-6 {
+            // the last bit of the way as a parabola: error (1e-5 s)³ times a small jerk
+            let (gap, a) = (s[1] - 45e-6, -k1[3]);
+            let dt = 2.0 * gap / (-s[3] + (s[3] * s[3] + 2.0 * a * gap).sqrt());
+            return (t + dt, -(s[3] - a * dt));
+        }
+        s = next;
+        t += h;
+    }
+}
+
+#[test]
+fn drag_matches_an_independent_integration() {
+    let wind = 2.0;
+    let domain = Analytic::new(Flow::Uniform { velocity: [wind, 0.0, 0.0] }, vec![plane("floor", [0.0; 3], [0.0, 1.0, 0.0])]);
+    let p = sphere(0, [0.0, 0.03, 0.0], [0.0, 0.5, 0.0]);
+    let log = track(&domain, &dynamics(Drag::SchillerNaumann), &[Behavior::Trap], settings(), &[p]);
+    let (time, speed) = first_impact_by_small_steps(0.03, [0.0, 0.5], wind);
+    let hit = log.impacts[0];
+    assert!((hit.time / time - 1.0).abs() < 1e-7, "{} {time}", hit.time);
+    assert!((hit.normal_speed_in / speed - 1.0).abs() < 1e-7, "{} {speed}", hit.normal_speed_in);
+    assert_eq!(log.ends[0].fate, Fate::Trapped);
+}
+
+#[test]
+fn halving_the_tolerance_moves_no_first_impact_by_more_than_the_tolerance() {
+    let domain = channel();
+    let behaviors = [Behavior::Trap, Behavior::Trap];
+    let particles: Vec<_> = (0..400).map(scattered).collect();
+    let firsts = |tolerance: f64| {
+        let log = track(&domain, &dynamics(Drag::SchillerNaumann), &behaviors, Settings { tolerance, ..settings() }, &particles);
+        (0..400).map(|n| log.impacts.iter().find(|i| i.particle == n).map(|i| i.time).unwrap()).collect::<Vec<_>>()
+    };
+    for tolerance in [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8] {
+        for (n, (a, b)) in firsts(tolerance).iter().zip(firsts(tolerance / 2.0)).enumerate() {
+            assert!((a / b - 1.0).abs() <= tolerance, "{n} at {tolerance}: {a} {b}");
+        }
+    }
+}
+
+fn channel() -> Analytic {
+    let flow = Flow::Uniform { velocity: [1.0, 0.2, 0.0] };
+    Analytic::new(flow, vec![plane("floor", [0.0; 3], [0.0, 1.0, 0.0]), plane("ceiling", [0.0, 0.02, 0.0], [0.0, -1.0, 0.0])])
+}
+
+fn scattered(n: u64) -> Particle {
+    let s = n as f64;
+    Particle {
+        diameter: (20.0 + (s * 7.0) % 90.0) * 1e-6,
+        ..sphere(n, [0.0, 0.001 + 0.018 * ((s * 0.37) % 1.0), 0.0], [(s * 0.71) % 3.0, (s * 1.3) % 4.0 - 2.0, (s * 0.17) % 1.0])
+    }
+}
+
+#[test]
+fn any_company_gives_the_same_bits() {
+    let domain = channel();
+    let behaviors = [bounce(0.9), bounce(0.7)];
+    let dynamics = dynamics(Drag::SchillerNaumann);
+    let settings = Settings { until: 0.3, ..settings() };
+    let particles: Vec<_> = (0..100).map(scattered).collect();
+    let together = track(&domain, &dynamics, &behaviors, settings, &particles);
+    for p in &particles {
+        let mut log = Log::default();
+        let tracker = Tracker { domain: &domain, dynamics: &dynamics, behaviors: &behaviors, settings };
+        tracker.run_plain(&mut std::iter::once(*p), &mut log);
+        let same: Vec<_> = together.impacts.iter().filter(|i| i.particle == p.number).copied().collect();
+        assert_eq!(log.impacts, same);
+        assert_eq!(together.ends.iter().find(|e| e.particle.number == p.number), log.ends.first());
+    }
+}
+
+#[test]
+fn a_sphere_at_rest_on_the_floor_settles_at_once_and_one_against_a_side_wall_falls() {
+    let walls = vec![plane("floor", [0.0; 3], [0.0, 1.0, 0.0]), plane("side", [0.0; 3], [1.0, 0.0, 0.0])];
+    let domain = Analytic::new(Flow::Still, walls);
+    let behaviors = [bounce(0.5), bounce(0.5)];
+    let r = 45e-6;
+    let at_rest = sphere(0, [0.1, r, 0.0], [0.0; 3]);
+    let beside = sphere(1, [r, 0.01, 0.0], [0.0; 3]);
+    let corner = sphere(2, [r + 0.01, r + 0.01, 0.0], [-0.5, -0.5, 0.0]);
+    let log = track(&domain, &dynamics(Drag::None), &behaviors, settings(), &[at_rest, beside, corner]);
+    let first = |n| log.impacts.iter().find(|i: &&ImpactRecord| i.particle == n).unwrap();
+    assert_eq!((first(0).time, first(0).event), (0.0, Event::Settle));
+    assert_eq!(first(1).wall, 0);
+    assert!((first(1).time - (2.0 * (0.01 - r) / G).sqrt()).abs() < 1e-12);
+    assert!(log.ends.iter().all(|e| e.fate == Fate::Settled));
+    for e in &log.ends {
+        assert!((e.position[1] - r).abs() < 1e-12 && e.position[0] >= r * (1.0 - 1e-9), "{e:?}");
+    }
+}
+
+#[test]
+fn a_sphere_driven_into_a_corner_by_the_flow_stays_there() {
+    // two walls at 60 degrees, the wind along their bisector into the wedge
+    let (s, c) = 30f64.to_radians().sin_cos();
+    let walls = vec![plane("low", [0.0; 3], [s, c, 0.0]), plane("high", [0.0; 3], [s, -c, 0.0])];
+    let domain = Analytic::new(Flow::Uniform { velocity: [-3.0, 0.0, 0.0] }, walls);
+    let mut f = dynamics(Drag::Stokes);
+    f.forces.gravity = [0.0; 3];
+    let p = sphere(0, [0.01, 0.002, 0.0], [0.0, 0.3, 0.0]);
+    let log = track(&domain, &f, &[bounce(0.6), bounce(0.6)], settings(), &[p]);
+    assert_eq!(log.ends[0].fate, Fate::Settled, "{:?}", log.ends[0]);
+    let x = log.ends[0].position;
+    let gap = |wall: usize| domain.walls()[wall].shape.distance(x) - 45e-6;
+    assert!(gap(0) > -1e-12 && gap(1) > -1e-12, "{} {}", gap(0), gap(1));
+}
+
+#[test]
+fn no_force_no_end_but_the_time() {
+    let domain = Analytic::new(Flow::Still, vec![plane("floor", [0.0; 3], [0.0, 1.0, 0.0])]);
+    let mut f = dynamics(Drag::None);
+    f.forces.gravity = [0.0; 3];
+    // along the wall, touching it: nothing presses, so it glides on
+    let p = sphere(0, [0.0, 45e-6, 0.0], [1.0, 0.0, 0.0]);
+    let log = track(&domain, &f, &[bounce(0.5)], settings(), &[p]);
+    assert_eq!(log.ends[0].fate, Fate::Airborne);
+    assert_eq!(log.ends[0].position, [10.0, 45e-6, 0.0]);
+}
+
+#[test]
+fn contact_at_the_centre_comes_one_radius_later() {
+    let mut wall = plane("floor", [0.0; 3], [0.0, 1.0, 0.0]);
+    wall.contact_at = ContactAt::Center;
+    let domain = Analytic::new(Flow::Still, vec![wall]);
+    let p = sphere(0, [0.0, 0.01, 0.0], [0.0; 3]);
+    let log = track(&domain, &dynamics(Drag::None), &[Behavior::Escape], settings(), &[p]);
+    assert!((log.impacts[0].time - (2.0 * 0.01 / G).sqrt()).abs() < 1e-12);
+    assert_eq!(log.ends[0].fate, Fate::Escaped);
+    assert_eq!(log.impacts[0].normal_speed_out, log.impacts[0].normal_speed_in);
+}
+
+#[test]
+fn elastic_spheres_in_a_pipe_keep_energy_and_stay_inside() {
+    let pipe = Cylinder { point: [0.0; 3], axis: [1.0, 0.0, 0.0], radius: 0.005, inside: true };
+    let wall = Wall { name: "pipe".into(), shape: Shape::Cylinder(pipe), contact_at: ContactAt::Surface, velocity: [0.0; 3] };
+    let domain = Analytic::new(Flow::Still, vec![wall]);
+    let f = dynamics(Drag::None);
+    let p = sphere(0, [0.0, 0.001, 0.002], [0.1, 0.7, -0.4]);
+    let log = track(&domain, &f, &[bounce(1.0)], Settings { until: 1.0, ..settings() }, &[p]);
+    assert!(log.impacts.len() > 50);
+    let energy = |y: f64, v: f64| G * y + 0.5 * v * v;
+    let v0 = (0.1f64.powi(2) + 0.7f64.powi(2) + 0.4f64.powi(2)).sqrt();
+    for i in &log.impacts {
+        let v = i.normal_speed_in.hypot(i.tangential_speed_in);
+        assert!((energy(i.position[1], v) / energy(0.001, v0) - 1.0).abs() < 1e-10);
+        assert!((pipe.distance(i.position) - 45e-6).abs() < 1e-15);
+    }
+}
