@@ -1,7 +1,7 @@
 //! The command line as a whole.
 
 use crate::failure::Failure;
-use crate::{capture, impact, materials, sweep};
+use crate::{capture, impact, materials, run, sweep};
 use clap::{Parser, Subcommand};
 
 const EXAMPLES: &str = "\
@@ -10,6 +10,7 @@ Examples:
   carom sweep --sphere copper --surface aluminium --diameter 90um --over speed=0.01..30 --plot e.svg
   carom capture --sphere copper --surface aluminium --over diameter=1um..1mm
   carom materials copper
+  carom run examples/wind-tunnel.toml --out out/
 
 Quantities take a unit (90um, 2m/s, 190GPa) or are SI numbers. `carom SUBCOMMAND --help` says more.
 Exit codes: 0 done, 2 the input is wrong, 1 anything else.";
@@ -28,6 +29,7 @@ enum Command {
     Sweep(Box<sweep::Args>),
     Capture(Box<capture::Args>),
     Materials(materials::Args),
+    Run(run::Args),
 }
 
 impl Cli {
@@ -38,6 +40,7 @@ impl Cli {
             Command::Sweep(args) => sweep::run(args),
             Command::Capture(args) => capture::run(args),
             Command::Materials(args) => materials::run(args),
+            Command::Run(args) => run::run(args),
         }
     }
 }

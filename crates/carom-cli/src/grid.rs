@@ -1,138 +1,20 @@
 //! Points along one quantity (`--over`) and curves of others (`--by`), for `sweep` and `capture`.
 
+mod by;
+mod over;
+
+pub use by::By;
+pub use over::{Over, Swept};
+
 use crate::failure::Failure;
 use crate::motion::ImpactArgs;
 use crate::output::{self, Files};
 use crate::text::plotted;
 use crate::values;
-use carom::error::did_you_mean;
-use carom::math;
+use by::set;
 use carom_report::plot::Dash;
 use carom_report::{Axis, Color, Column, Plot, Series, Table, Values};
-use clap::{Args as _, FromArgMatches as _};
 use std::path::PathBuf;
-
-/// What can be swept.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Swept {
-    Speed,
-    Diameter,
-    Angle,
-}
-
-impl Swept {
-    const ALL: [Self; 3] = [Self::Speed, Self::Diameter, Self::Angle];
-
-    /// Its flag.
-    pub fn flag(self) -> &'static str {
-        match self {
-            Self::Speed => "speed",
-            Self::Diameter => "diameter",
-            Self::Angle => "angle",
-        }
-    }
-
-    fn read(self, text: &str) -> Result<f64, String> {
-        match self {
-            Self::Speed => values::speed(text),
-            Self::Diameter => values::diameter(text),
-            Self::Angle => values::angle(text),
-        }
-    }
-
-    /// Column name and unit.
-    fn column(self) -> (&'static str, &'static str) {
-        match self {
-            Self::Speed => ("speed", "m/s"),
-            Self::Diameter => ("diameter", "m"),
-            Self::Angle => ("angle_deg", ""),
-        }
-    }
-}
-
-/// `speed=0.1m/s..30m/s`
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Over {
-    /// What runs.
-    pub quantity: Swept,
-    from: f64,
-    to: f64,
-}
-
-impl std::str::FromStr for Over {
-    type Err = String;
-    fn from_str(text: &str) -> Result<Self, String> {
-        let form = "a range is wanted, such as speed=0.1m/s..30m/s";
-        let (name, range) = text.split_once('=').ok_or(form)?;
-        let names = Swept::ALL.map(Swept::flag);
-        let quantity = Swept::ALL.into_iter().find(|q| q.flag() == name.trim()).ok_or_else(|| {
-            let near = did_you_mean(name, names).map_or(String::new(), |n| format!("{n} "));
-            format!("unknown quantity '{name}'; {near}known are {}", names.join(", "))
-        })?;
-        let (from, to) = range.split_once("..").ok_or(form)?;
-        let (from, to) = (quantity.read(&with_unit(from, to))?, quantity.read(to)?);
-        if from < to {
-            Ok(Self { quantity, from, to })
-        } else {
-            Err(format!("the range '{range}' does not rise; {form}"))
-        }
-    }
-}
-
-/// A bare number before one with a unit shares it: in `1..100um` both are micrometres.
-fn with_unit(text: &str, next: &str) -> String {
-    let text = text.trim();
-    if text.parse::<f64>().is_err() {
-        return text.to_owned();
-    }
-    let next = next.trim();
-    let digits = (1..=next.len()).rev().find(|n| next.get(..*n).is_some_and(|t| t.parse::<f64>().is_ok())).unwrap_or(0);
-    format!("{text}{}", &next[digits..])
-}
-
-impl Over {
-    /// The points: equal ratios, or equal steps; both ends exact.
-    fn points(&self, count: usize, linear: bool) -> Vec<f64> {
-        let last = count - 1;
-        let between = |i: usize| {
-            let share = i as f64 / last as f64;
-            if linear {
-                self.from + share * (self.to - self.from)
-            } else {
-                self.from * math::pow(self.to / self.from, share)
-            }
-        };
-        (0..count)
-            .map(|i| match i {
-                0 => self.from,
-                i if i == last => self.to,
-                i => between(i),
-            })
-            .collect()
-    }
-}
-
-/// `diameter=10um,20um`: one curve for each value of a flag.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct By {
-    key: String,
-    values: Vec<String>,
-}
-
-impl std::str::FromStr for By {
-    type Err = String;
-    fn from_str(text: &str) -> Result<Self, String> {
-        let form = "a flag and its values are wanted, such as diameter=10um,20um or law=ea,eap";
-        let (key, list) = text.split_once('=').ok_or(form)?;
-        let separator = if list.contains(';') { ';' } else { ',' };
-        let written: Vec<&str> = list.split(separator).map(str::trim).filter(|v| !v.is_empty()).collect();
-        let last = written.last().ok_or(form)?;
-        let key = key.trim().trim_start_matches("--").replace('_', "-");
-        let shares_unit = Swept::ALL.iter().any(|q| q.flag() == key);
-        let values = written.iter().map(|v| if shares_unit { with_unit(v, last) } else { (*v).to_owned() }).collect();
-        Ok(Self { key, values })
-    }
-}
 
 /// Points, curves and where they go.
 #[derive(clap::Args)]
@@ -262,24 +144,6 @@ impl Curve {
     }
 }
 
-/// Sets the flag `key` as if it had been given, by reading it as the command line is read.
-fn set(args: &mut ImpactArgs, key: &str, value: &str) -> Result<(), Failure> {
-    let command = ImpactArgs::augment_args_for_update(clap::Command::new("carom").no_binary_name(true));
-    let command = command.disable_help_flag(true).mut_args(|a| a.allow_hyphen_values(true));
-    let flags: Vec<String> = command.get_arguments().filter_map(|a| a.get_long()).map(str::to_owned).collect();
-    if !flags.iter().any(|f| f == key) || key == "materials" {
-        let near = did_you_mean(key, flags.iter().map(String::as_str)).map_or(String::new(), |n| format!("{n} "));
-        return Err(Failure::input(format!(
-            "--by {key}: no such flag; {near}any flag of the law or the impact will do, or pair"
-        )));
-    }
-    let matches = command.try_get_matches_from([format!("--{key}={value}")]);
-    matches.and_then(|m| args.update_from_arg_matches(&m)).map_err(|e| {
-        let text = e.render().to_string();
-        Failure::input(format!("--by: {}", text.trim_start_matches("error: ").trim_end()))
-    })
-}
-
 impl Grid<'_> {
     /// What runs.
     pub fn quantity(&self) -> Swept {
@@ -381,53 +245,4 @@ impl Grid<'_> {
 fn telling(table: Table) -> Result<Table, Failure> {
     let empty = |c: &&Column| matches!(&c.values, Values::Float(v) if v.iter().all(|x| x.is_nan()));
     Ok(Table::new(table.columns().iter().filter(|c| !empty(c)).cloned())?)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn ranges_share_their_unit_and_keep_their_ends() {
-        let over: Over = "diameter=1..100um".parse().expect("a range");
-        let points = over.points(3, false);
-        assert_eq!((points[0], points[2]), (1e-6, 1e-4));
-        assert!((points[1] / 1e-5 - 1.0).abs() < 1e-12);
-        let over: Over = "speed=1e-3..30".parse().expect("a range");
-        assert_eq!(over.points(2, true), [1e-3, 30.0]);
-    }
-
-    #[test]
-    fn ranges_that_are_none_are_refused() {
-        for (text, part) in [
-            ("sped=1..2", "did you mean speed?"),
-            ("speed", "a range is wanted"),
-            ("speed=1", "a range is wanted"),
-            ("speed=2..1", "does not rise"),
-            ("speed=1..1", "does not rise"),
-            ("speed=0..1", "above 0"),
-            ("speed=1..NaN", "finite"),
-            ("angle=10..91", "up to 90"),
-            ("diameter=1um..1kg", "no unit of length"),
-        ] {
-            let error = text.parse::<Over>().expect_err(text);
-            assert!(error.contains(part), "{text}: {error}");
-        }
-    }
-
-    #[test]
-    fn curves_vary_any_flag() {
-        let by: By = "law=adhesion-work,hertz-damping;ea".parse().expect("two laws");
-        assert_eq!(by.values, ["adhesion-work,hertz-damping", "ea"]);
-        let by: By = "diameter=10,20um".parse().expect("two diameters");
-        assert_eq!(by.values, ["10um", "20um"]);
-        let mut args = ImpactArgs::default();
-        args.motion.speed = Some(3.0);
-        set(&mut args, "diameter", "10um").expect("a diameter");
-        assert_eq!((args.motion.diameter, args.motion.speed), (Some(1e-5), Some(3.0)));
-        assert!(
-            matches!(set(&mut args, "diamter", "1"), Err(Failure::Input(m)) if m.contains("did you mean diameter?"))
-        );
-        assert!(matches!(set(&mut args, "friction", "x"), Err(Failure::Input(m)) if m.contains("no number here")));
-    }
 }

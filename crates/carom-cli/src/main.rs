@@ -11,8 +11,10 @@ mod law;
 mod materials;
 mod motion;
 mod output;
+mod run;
 mod sweep;
 mod text;
+mod trajectories;
 mod values;
 
 use clap::{CommandFactory as _, FromArgMatches as _};
