@@ -148,7 +148,7 @@ fn settings(read: &CaseText, seed: u64, behaviors: &[Behavior]) -> Result<Settin
     let default = RunText::default();
     let run = read.run.as_ref().map_or(&default, |r| &r.value);
     let until = run.until.as_ref().map(|u| positive(u, "until", u.value.0)).transpose()?;
-    let way_out = behaviors.iter().any(|b| !matches!(b, Behavior::Law(_)));
+    let way_out = behaviors.iter().any(|b| matches!(b, Behavior::Trap | Behavior::Escape));
     if until.is_none() && !way_out {
         let error = SpecError::new("nothing ends this run: neither until nor a wall that traps or lets escape");
         return Err(error.help("give until = \"2 s\" in [run]").at(read.run.as_ref().and_then(|r| r.span.clone())));
