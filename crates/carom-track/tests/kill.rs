@@ -83,7 +83,7 @@ fn killed_and_resumed_is_as_never_killed() {
     }
     assert!(kills >= 3, "only {kills} kills came in time");
     assert!(start().wait().expect("an end").success());
-    for name in ["summary.json", "impacts.csv", "trajectories.csv"] {
+    for name in ["summary.json", "impacts.csv", "trajectories.csv", "deposition.csv", "deposit.vtp"] {
         let read = |folder: &Path| std::fs::read(folder.join(name)).expect(name);
         assert!(read(&whole) == read(&killed), "{name} differs");
     }
