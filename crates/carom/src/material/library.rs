@@ -6,8 +6,13 @@ use crate::error::did_you_mean;
 use std::collections::BTreeMap;
 
 /// The embedded files of `data/materials`; a test keeps this list complete.
-pub(super) const BUILTIN: &[(&str, &str)] =
-    &[("kim-dunn-2007.toml", include_str!("../../../../data/materials/kim-dunn-2007.toml"))];
+pub(super) const BUILTIN: &[(&str, &str)] = &[
+    ("glasses.toml", include_str!("../../../../data/materials/glasses.toml")),
+    ("kim-dunn-2007.toml", include_str!("../../../../data/materials/kim-dunn-2007.toml")),
+    ("metals.toml", include_str!("../../../../data/materials/metals.toml")),
+    ("polymers.toml", include_str!("../../../../data/materials/polymers.toml")),
+    ("powders.toml", include_str!("../../../../data/materials/powders.toml")),
+];
 
 /// A set of materials. Names and aliases are matched without regard to case; `_` and a space count as `-`.
 #[derive(Clone, Debug, Default)]

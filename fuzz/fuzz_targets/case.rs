@@ -1,0 +1,8 @@
+//! Any text as a case file: it is read or refused, never a panic. `cargo +nightly fuzz run case`
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|text: &str| {
+    let _ = carom_track::Case::from_toml(text, "case.toml");
+});
