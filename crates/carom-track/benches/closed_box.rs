@@ -9,7 +9,7 @@ use carom_track::force::{Drag, Forces};
 use carom_track::geometry::{Room, Shape};
 use carom_track::random::{Purpose, Stream};
 use carom_track::record::{End, ImpactRecord, Sink};
-use carom_track::tracker::{Behavior, Particle, SettleHeight, Settings, Tracker};
+use carom_track::tracker::{Behavior, Particle, Settings, SettleHeight, Tracker};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
 const PARTICLES: u64 = 4096;
@@ -61,7 +61,8 @@ fn closed_box(c: &mut Criterion) {
     let behaviors = [Behavior::Law(vec![law])];
     let forces = Forces { drag: Drag::SchillerNaumann, ..Forces::default() };
     let dynamics = Dynamics { fluid: Fluid::default(), forces, random_walk: None, brownian: false };
-    let settings = Settings { tolerance: 1e-5, until: 0.05, settle_height: SettleHeight::DEFAULT, max_steps: 1_000_000, seed: 1 };
+    let settings =
+        Settings { tolerance: 1e-5, until: 0.05, settle_height: SettleHeight::DEFAULT, max_steps: 1_000_000, seed: 1 };
     let tracker = Tracker { domain: &domain, dynamics: &dynamics, behaviors: &behaviors, settings };
     let particles: Vec<Particle> = (0..PARTICLES).map(particle).collect();
     let mut count = Count::default();

@@ -29,12 +29,21 @@ adhesion_damping,hertz_damping,plastic,other,friction,captured,kept\n";
 /// The first line of `trajectories.csv`.
 pub(crate) const TRAJECTORIES_HEADER: &str = "particle,time,x,y,z,vx,vy,vz,spin_x,spin_y,spin_z\n";
 
+/// A row of `impacts.csv`, columns in groups.
 #[derive(Serialize)]
-struct ImpactRow<'a>(
-    (u64, f64, f64, f64, f64, &'a str, f64, f64, f64, f64),
-    (Option<f64>, Option<f64>, &'static str, f64, f64, f64, f64, f64, f64, f64),
-    [f64; 8],
-);
+struct ImpactRow<'a> {
+    particle: u64,
+    time_and_place: [f64; 4],
+    wall: &'a str,
+    incoming: [f64; 4],
+    restitution: Option<f64>,
+    impulse_ratio: Option<f64>,
+    fate: &'static str,
+    outgoing: [f64; 3],
+    weight: f64,
+    normal: [f64; 3],
+    energy: [f64; 8],
+}
 
 /// One point of a recorded path.
 type Point = (u64, [f64; 10]);
@@ -72,7 +81,7 @@ impl Sink for Collector<'_> {
     }
 
     fn end(&mut self, end: &End) {
-        self.summary.end(end);
+        self.summary.end(end, &self.case.bins);
     }
 
     fn stalled(&mut self) {
@@ -98,7 +107,7 @@ pub(crate) fn track(case: &Case, numbers: Range<u64>, wanted: Wanted) -> Block {
 
 /// A summary of nothing.
 pub(crate) fn empty(case: &Case) -> Summary {
-    Summary::new(&case.title, case.domain.walls().iter().map(|w| w.name.clone()))
+    Summary::new(&case.title, case.domain.walls().iter().map(|w| w.name.clone()), &case.bins)
 }
 
 fn rows<R: Serialize>(rows: impl Iterator<Item = R>) -> Vec<u8> {
@@ -113,23 +122,19 @@ fn rows<R: Serialize>(rows: impl Iterator<Item = R>) -> Vec<u8> {
 fn impact_row<'a>(i: &ImpactRecord, wall: &'a str) -> ImpactRow<'a> {
     let known = |v: f64| (!v.is_nan()).then_some(v);
     let [x, y, z] = i.position;
-    let [nx, ny, nz] = i.normal;
-    ImpactRow(
-        (i.particle, i.time, x, y, z, wall, i.diameter, i.normal_speed_in, i.tangential_speed_in, i.spin_in),
-        (
-            known(i.restitution),
-            known(i.impulse_ratio),
-            i.event.name(),
-            i.normal_speed_out,
-            i.tangential_speed_out,
-            i.spin_out,
-            i.weight,
-            nx,
-            ny,
-            nz,
-        ),
-        i.energy.named().map(|(_, share)| share),
-    )
+    ImpactRow {
+        particle: i.particle,
+        time_and_place: [i.time, x, y, z],
+        wall,
+        incoming: [i.diameter, i.normal_speed_in, i.tangential_speed_in, i.spin_in],
+        restitution: known(i.restitution),
+        impulse_ratio: known(i.impulse_ratio),
+        fate: i.event.name(),
+        outgoing: [i.normal_speed_out, i.tangential_speed_out, i.spin_out],
+        weight: i.weight,
+        normal: i.normal,
+        energy: i.energy.named().map(|(_, share)| share),
+    }
 }
 
 #[cfg(test)]

@@ -1,5 +1,7 @@
 //! What the tracker asks of the space it tracks in: what the fluid is like, and where a path next meets a wall.
 
+#![allow(clippy::needless_range_loop, reason = "one index runs through several arrays of lanes or components")]
+
 use crate::flow::{Flow, Local};
 use crate::geometry::{Meeting, Path, Plane, Room, Shape};
 use crate::integrate::{Lanes, Lanes3};

@@ -3,6 +3,8 @@
 //! Where only drag, gravity and buoyancy act, they are worked out in loops that vectorise; every other force goes
 //! through [`Forces::rates`], sphere by sphere. Either way the lanes do not mix.
 
+#![allow(clippy::needless_range_loop, reason = "one index runs through several arrays of lanes or components")]
+
 use crate::domain::Domain;
 use crate::flow::Fluid;
 use crate::force::{Drag, Eddy, Forces, RandomWalk, Sphere, relaxation_time};
@@ -135,7 +137,13 @@ impl Dynamics {
     }
 
     #[inline(always)]
-    fn plain_rates<const W: usize, D: Domain>(&self, domain: &D, bodies: &Bodies<W>, m: &Motion<W>, out: &mut Rates<W>) {
+    fn plain_rates<const W: usize, D: Domain>(
+        &self,
+        domain: &D,
+        bodies: &Bodies<W>,
+        m: &Motion<W>,
+        out: &mut Rates<W>,
+    ) {
         out.a = bodies.weight;
         if self.forces.drag == Drag::None {
             return;
@@ -164,7 +172,13 @@ impl Dynamics {
         }
     }
 
-    fn full_rates<const W: usize, D: Domain>(&self, domain: &D, bodies: &Bodies<W>, m: &Motion<W>, l: usize) -> crate::force::Rates {
+    fn full_rates<const W: usize, D: Domain>(
+        &self,
+        domain: &D,
+        bodies: &Bodies<W>,
+        m: &Motion<W>,
+        l: usize,
+    ) -> crate::force::Rates {
         let at = |v: &Lanes3<W>| -> Vec3 { [v[0][l], v[1][l], v[2][l]] };
         let mut local = domain.fluid(at(&m.x));
         if let (Some(walk), Some(eddy)) = (&self.random_walk, &bodies.eddy[l]) {

@@ -6,6 +6,8 @@
 //! the step. Everything is written for `W` particles side by side, each with its own step; no operation mixes two of
 //! them, so a particle's bits do not depend on W or on its neighbours.
 
+#![allow(clippy::needless_range_loop, reason = "one index runs through several arrays of lanes or components")]
+
 /// One number per particle.
 pub type Lanes<const W: usize> = [f64; W];
 /// A vector per particle, component by component.
@@ -219,7 +221,8 @@ pub fn step<const W: usize>(
     derivative: &impl Derivative<W>,
     out: &mut Step<W>,
 ) {
-    let mut trial = Trial { start, h, control, k: [[[0.0; W]; 3]; STAGES], kk: [[[0.0; W]; 3]; STAGES], at: *start, now: *first };
+    let mut trial =
+        Trial { start, h, control, k: [[[0.0; W]; 3]; STAGES], kk: [[[0.0; W]; 3]; STAGES], at: *start, now: *first };
     trial.k[0] = first.a;
     trial.kk[0] = first.alpha;
     trial.stage::<1>(derivative);

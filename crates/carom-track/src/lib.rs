@@ -4,9 +4,9 @@
 //! [`injection`] where spheres start, [`random`] where chance comes from; [`domain`] joins flow and walls, [`tracker`]
 //! takes each sphere from its injection to its fate.
 
-
 mod block;
 pub mod case;
+pub mod deposition;
 pub mod domain;
 pub mod dynamics;
 pub mod exact_sum;

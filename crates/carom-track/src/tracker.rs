@@ -3,8 +3,12 @@
 //! Each of the `W` lanes holds one particle with its own time and step; a lane that is done takes the next particle.
 //! No operation mixes two lanes, so a particle's history has the same bits in any company.
 
+#![allow(clippy::needless_range_loop, reason = "one index runs through several arrays of lanes or components")]
+
+mod chance;
 mod lane;
 mod meeting;
+mod wall_jet;
 
 use crate::domain::Domain;
 use crate::dynamics::{Bodies, Dynamics};
@@ -108,6 +112,8 @@ pub enum Behavior {
     Trap,
     /// It leaves the domain.
     Escape,
+    /// It leaves along the wall, as a jet's momentum spreads.
+    WallJet,
 }
 
 /// All that stays the same during a run.
@@ -195,7 +201,11 @@ impl<D: Domain> Tracker<'_, D> {
             h: [0.0; W],
             step: Step::ZERO,
         };
-        let control = Control { tolerance: PER_STEP * self.settings.tolerance, spins: self.dynamics.spins(), place: self.dynamics.need_place(self.domain) };
+        let control = Control {
+            tolerance: PER_STEP * self.settings.tolerance,
+            spins: self.dynamics.spins(),
+            place: self.dynamics.need_place(self.domain),
+        };
         loop {
             let mut working = false;
             for l in 0..W {
@@ -243,6 +253,9 @@ impl<D: Domain> Tracker<'_, D> {
             return;
         }
         crew.lanes[l].step = self.dynamics.first_step(crew.bodies.drag_rate[l]);
+        if self.has_chance() {
+            self.renew(crew, l);
+        }
         self.refresh(crew, l);
     }
 
@@ -298,9 +311,14 @@ impl<D: Domain> Tracker<'_, D> {
             lane::trace(crew, l, 1.0, sink);
         }
         let lane = &mut crew.lanes[l];
-        let last = h >= self.settings.until - lane.time;
-        lane.time = if last { self.settings.until } else { lane.time + h };
-        lane.step = h * factor;
+        let stop = lane.stop(self.settings.until);
+        let stopped = h >= stop - lane.time;
+        lane.time = if stopped { stop } else { lane.time + h };
+        let last = stopped && stop >= self.settings.until;
+        // a step cut short by a stop says little of the next
+        if !stopped || factor < 1.0 {
+            lane.step = h * factor;
+        }
         lane.fitted = false;
         lane.standing = 0;
         for c in 0..3 {
@@ -312,6 +330,9 @@ impl<D: Domain> Tracker<'_, D> {
         }
         if last {
             finish(crew, l, Fate::Airborne, None, sink);
+        } else if stopped {
+            self.renew(crew, l);
+            self.refresh(crew, l);
         }
     }
 }
@@ -339,7 +360,16 @@ fn finish<const W: usize>(crew: &mut Crew<W>, l: usize, fate: Fate, wall: Option
     if lane.trace {
         sink.point(lane.particle.number, lane.time, position, velocity, spin);
     }
-    sink.end(&End { particle: lane.particle, fate, wall, time: lane.time, position, velocity, spin, steps: lane.steps });
+    sink.end(&End {
+        particle: lane.particle,
+        fate,
+        wall,
+        time: lane.time,
+        position,
+        velocity,
+        spin,
+        steps: lane.steps,
+    });
 }
 
 #[cfg(test)]

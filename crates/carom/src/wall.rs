@@ -126,15 +126,14 @@ impl WallLaw {
 
     #[inline(always)]
     pub(crate) fn size(&self, diameter: f64, density: Option<f64>) -> Result<Size, ImpactError> {
-        // written so that NaN fails too
-        if !(diameter >= 1e-10 && diameter <= 10.0) {
+        if !(1e-10..=10.0).contains(&diameter) {
             return Err(ImpactError::Diameter);
         }
         let radius = 0.5 * diameter;
         let mut size = Size::flat(radius);
         if let Some(density) = density {
             size.density_ratio = density / self.density;
-            if !(size.density_ratio >= 1e-3 && size.density_ratio <= 1e3) {
+            if !(1e-3..=1e3).contains(&size.density_ratio) {
                 return Err(ImpactError::Density);
             }
         }
@@ -238,7 +237,7 @@ impl WallLaw {
                 let direction = [slip[0] / speed, slip[1] / speed, slip[2] / speed];
                 Slid {
                     tangent: add_scaled(&s.tangent, -p, &direction),
-                    spin: add_scaled(&s.spin, 2.5 * (p / s.radius), &cross(&s.normal, &direction)),
+                    spin: add_scaled(&s.spin, p * (2.5 / s.radius), &cross(&s.normal, &direction)),
                     ratio: p / normal_impulse,
                     friction: p * 3.5f64.mul_add(-p, 2.0 * speed),
                     contact: if slides { Contact::Sliding } else { Contact::Rolling },

@@ -12,7 +12,11 @@ pub(super) fn wrong<T>(at: &At<T>, message: impl Into<String>) -> SpecError {
 
 /// The value of a word among the known ones.
 pub(super) fn word<T: Copy>(text: &At<String>, what: &str, known: &[(&str, T)]) -> Result<T, SpecError> {
-    known.iter().find(|(name, _)| *name == text.value).map(|(_, value)| *value).ok_or_else(|| unknown(text, what, known.iter().map(|k| k.0)))
+    known
+        .iter()
+        .find(|(name, _)| *name == text.value)
+        .map(|(_, value)| *value)
+        .ok_or_else(|| unknown(text, what, known.iter().map(|k| k.0)))
 }
 
 /// An unknown name, with the nearest known one.
@@ -23,13 +27,22 @@ pub(super) fn unknown<'a>(text: &At<String>, what: &str, known: impl Iterator<It
 }
 
 /// The value of a key that must be there.
-pub(super) fn needed<'a, T, P>(given: &'a Option<At<T>>, table: &At<P>, key: &str, whose: &str) -> Result<&'a At<T>, SpecError> {
+pub(super) fn needed<'a, T, P>(
+    given: &'a Option<At<T>>,
+    table: &At<P>,
+    key: &str,
+    whose: &str,
+) -> Result<&'a At<T>, SpecError> {
     given.as_ref().ok_or_else(|| wrong(table, format!("{whose} needs {key}")))
 }
 
 /// A positive, finite number.
 pub(super) fn positive<T>(at: &At<T>, key: &str, value: f64) -> Result<f64, SpecError> {
-    if value > 0.0 && value.is_finite() { Ok(value) } else { Err(wrong(at, format!("{key} is {value}")).help("it must be positive")) }
+    if value > 0.0 && value.is_finite() {
+        Ok(value)
+    } else {
+        Err(wrong(at, format!("{key} is {value}")).help("it must be positive"))
+    }
 }
 
 /// Puts an error of a part at the place of its table.

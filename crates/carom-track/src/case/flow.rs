@@ -69,9 +69,8 @@ pub(super) fn flow(text: Option<&At<FlowText>>, fluid: &Fluid, folder: &Path) ->
         }
         "slot-jet" => {
             let width = needed(&text.width, text, "width", &whose)?.value.0;
-            let distance = needed(&text.distance, text, "distance", &whose)?.value.0;
             let speed = needed(&text.speed, text, "speed", &whose)?.value.0;
-            Flow::SlotJet(SlotJet::new(width, distance, speed).map_err(|e| placed(text, e))?)
+            Flow::SlotJet(SlotJet::new(width, speed).map_err(|e| placed(text, e))?)
         }
         "round-jet" => {
             let diameter = needed(&text.diameter, text, "diameter", &whose)?.value.0;
@@ -80,7 +79,9 @@ pub(super) fn flow(text: Option<&At<FlowText>>, fluid: &Fluid, folder: &Path) ->
         }
         "table" => {
             let file = needed(&text.file, text, "file", &whose)?;
-            Flow::Table(Table::load(&folder.join(&file.value)).map_err(|e| placed(file, format!("{}: {e}", file.value)))?)
+            Flow::Table(
+                Table::load(&folder.join(&file.value)).map_err(|e| placed(file, format!("{}: {e}", file.value)))?,
+            )
         }
         _ => return Err(unknown(&text.kind, "kind of flow", KINDS.into_iter())),
     })
@@ -101,7 +102,6 @@ fn refuse_others(text: &At<FlowText>, kind: &str) -> Result<(), SpecError> {
         ("strain_rate", text.strain_rate.as_ref().map(|a| a.span.clone())),
         ("width", text.width.as_ref().map(|a| a.span.clone())),
         ("diameter", text.diameter.as_ref().map(|a| a.span.clone())),
-        ("distance", text.distance.as_ref().map(|a| a.span.clone())),
         ("speed", text.speed.as_ref().map(|a| a.span.clone())),
         ("file", text.file.as_ref().map(|a| a.span.clone())),
     ];
@@ -111,14 +111,18 @@ fn refuse_others(text: &At<FlowText>, kind: &str) -> Result<(), SpecError> {
         "channel" => &["profile", "height", "mean_speed"],
         "pipe" => &["profile", "point", "axis", "radius", "mean_speed"],
         "stagnation" => &["point", "normal", "strain_rate", "line"],
-        "slot-jet" => &["width", "distance", "speed"],
+        "slot-jet" => &["width", "speed"],
         "round-jet" => &["diameter", "speed"],
         "table" => &["file"],
         _ => return Ok(()),
     };
     for (key, span) in given {
         if let Some(span) = span.filter(|_| !keys.contains(&key)) {
-            let right = if keys.is_empty() { "it has no keys besides kind".to_owned() } else { format!("its keys are {}", keys.join(", ")) };
+            let right = if keys.is_empty() {
+                "it has no keys besides kind".to_owned()
+            } else {
+                format!("its keys are {}", keys.join(", "))
+            };
             return Err(SpecError::new(format!("a {kind} flow has no {key}")).help(right).at(span));
         }
     }
@@ -154,11 +158,15 @@ pub(super) fn dynamics(text: &ForcesText, fluid: Fluid) -> Result<Dynamics, Spec
     Ok(Dynamics { fluid, forces, random_walk: random_walk(text)?, brownian })
 }
 
-pub(super) const SLIPS: [(&str, Slip); 3] = [("none", Slip::None), ("davies", Slip::Davies), ("allen-raabe", Slip::AllenRaabe)];
+pub(super) const SLIPS: [(&str, Slip); 3] =
+    [("none", Slip::None), ("davies", Slip::Davies), ("allen-raabe", Slip::AllenRaabe)];
 
 fn random_walk(text: &ForcesText) -> Result<Option<RandomWalk>, SpecError> {
-    const WALLS: [(&str, NearWall); 3] =
-        [("isotropic", NearWall::Isotropic), ("wang-james", NearWall::WangJames), ("kallio-reeks", NearWall::KallioReeks)];
+    const WALLS: [(&str, NearWall); 3] = [
+        ("isotropic", NearWall::Isotropic),
+        ("wang-james", NearWall::WangJames),
+        ("kallio-reeks", NearWall::KallioReeks),
+    ];
     const LIVES: [(&str, Life); 2] = [("constant", Life::Constant), ("random", Life::Random)];
     let Some(text) = &text.random_walk else { return Ok(None) };
     let mut walk = RandomWalk::default();

@@ -4,7 +4,9 @@ use super::check::{positive, unknown, word, wrong};
 use super::text::{InjectionText, PlaceText, PlacesText, Si, SizeText, SizesText, VelocityText};
 use crate::flow::Fluid;
 use crate::force::Slip;
-use crate::injection::{Amount, By, Diameter, Injection, InjectionError, Plan, Sizes, Source, Start, Window, geometric_diameter};
+use crate::injection::{
+    Amount, By, Diameter, Injection, InjectionError, Plan, Sizes, Source, Start, Window, geometric_diameter,
+};
 use carom::SpecError;
 use carom::material::{Library, MaterialRef};
 use carom::spec::At;
@@ -26,14 +28,24 @@ pub struct Injected {
 }
 
 /// Reads one injection.
-pub(super) fn read(at: &At<InjectionText>, index: usize, seed: u64, fluid: &Fluid, library: &Library) -> Result<Injected, SpecError> {
+pub(super) fn read(
+    at: &At<InjectionText>,
+    index: usize,
+    seed: u64,
+    fluid: &Fluid,
+    library: &Library,
+) -> Result<Injected, SpecError> {
     let text = &at.value;
     let name = text.name.as_ref().map_or_else(|| format!("injection {}", index + 1), |n| n.value.clone());
     let number = u32::try_from(index).map_err(|_| wrong(at, "too many injections"))?;
     let density = density(at, library)?;
     let diameter = match &text.diameter_kind {
         None => Diameter::Geometric,
-        Some(kind) => word(kind, "kind of diameter", &[("geometric", Diameter::Geometric), ("aerodynamic", Diameter::Aerodynamic(Slip::Davies))])?,
+        Some(kind) => word(
+            kind,
+            "kind of diameter",
+            &[("geometric", Diameter::Geometric), ("aerodynamic", Diameter::Aerodynamic(Slip::Davies))],
+        )?,
     };
     let (sizes, mut largest) = sizes(&text.diameter)?;
     if let Diameter::Aerodynamic(slip) = diameter {
@@ -57,7 +69,13 @@ pub(super) fn read(at: &At<InjectionText>, index: usize, seed: u64, fluid: &Flui
         return Err(wrong(start, format!("start is {} s", start.value.0)).help("a run begins at 0 s"));
     }
     let injection = Injection::new(seed, number, plan, fluid).map_err(|e| blame(at, &e).at(at.span.clone()))?;
-    Ok(Injected { name, material: text.material.as_ref().map(|m| m.value.clone()), injection, largest, place: text.position.span.clone() })
+    Ok(Injected {
+        name,
+        material: text.material.as_ref().map(|m| m.value.clone()),
+        injection,
+        largest,
+        place: text.position.span.clone(),
+    })
 }
 
 /// The key that an injection's error is about.
@@ -70,7 +88,11 @@ fn blame(at: &At<InjectionText>, error: &InjectionError) -> SpecError {
     } else if about(&["stop time"]) {
         text.stop.as_ref().or(text.start.as_ref()).and_then(|a| a.span.clone())
     } else if about(&["mass", "number of particles"]) {
-        let amount = [text.count.as_ref().map(|a| &a.span), text.mass.as_ref().map(|a| &a.span), text.mass_flow.as_ref().map(|a| &a.span)];
+        let amount = [
+            text.count.as_ref().map(|a| &a.span),
+            text.mass.as_ref().map(|a| &a.span),
+            text.mass_flow.as_ref().map(|a| &a.span),
+        ];
         amount.into_iter().flatten().next().cloned().flatten()
     } else if about(&["point", "corner", "box", "disc", "patch", "surface"]) {
         text.position.span.clone()
@@ -87,22 +109,31 @@ fn blame(at: &At<InjectionText>, error: &InjectionError) -> SpecError {
 }
 
 fn density(at: &At<InjectionText>, library: &Library) -> Result<f64, SpecError> {
-    let material = at.value.material.as_ref().map(|m| m.value.resolve(library).map_err(|e| e.at(m.span.clone()))).transpose()?;
+    let material =
+        at.value.material.as_ref().map(|m| m.value.resolve(library).map_err(|e| e.at(m.span.clone()))).transpose()?;
     if let Some(density) = &at.value.density {
         return positive(density, "density", density.value.0);
     }
     let Some(material) = material else {
         return Err(wrong(at, "an injection needs a material or a density"));
     };
-    material.density.ok_or_else(|| wrong(at, format!("{} has no density in the library", material.name)).help("give density"))
+    material
+        .density
+        .ok_or_else(|| wrong(at, format!("{} has no density in the library", material.name)).help("give density"))
 }
 
 fn amount(at: &At<InjectionText>) -> Result<Amount, SpecError> {
     let text = &at.value;
-    let parcels = || text.parcels.as_ref().map(|p| p.value).ok_or_else(|| wrong(at, "a mass needs a number of parcels to carry it").help("give parcels"));
+    let parcels = || {
+        text.parcels
+            .as_ref()
+            .map(|p| p.value)
+            .ok_or_else(|| wrong(at, "a mass needs a number of parcels to carry it").help("give parcels"))
+    };
     match (&text.count, &text.mass, &text.mass_flow) {
         (Some(count), None, None) => match &text.parcels {
-            Some(p) => Err(wrong(p, "parcels with a count").help("a count injects single spheres; parcels carry a mass or a mass_flow")),
+            Some(p) => Err(wrong(p, "parcels with a count")
+                .help("a count injects single spheres; parcels carry a mass or a mass_flow")),
             None => Ok(Amount::Count(count.value)),
         },
         (None, Some(mass), None) => Ok(Amount::Mass { total: mass.value.0, parcels: parcels()? }),
@@ -126,7 +157,8 @@ fn sizes(at: &At<SizeText>) -> Result<(Sizes, f64), SpecError> {
             Ok((sizes, l.median.0 * l.gsd.powi(5)))
         }
         (None, Some(r), None) => {
-            let sizes = Sizes::RosinRammler { mean: r.mean.0, spread: r.spread, min: r.min.0, max: r.max.0, by: by(By::Mass)? };
+            let sizes =
+                Sizes::RosinRammler { mean: r.mean.0, spread: r.spread, min: r.min.0, max: r.max.0, by: by(By::Mass)? };
             Ok((sizes, r.max.0))
         }
         (None, None, Some(t)) => {
@@ -163,7 +195,9 @@ pub(super) fn hull(source: &Source) -> Vec<[f64; 3]> {
     use crate::vector::{add, frame, scale, unit};
     match source {
         Source::Point(p) => vec![*p],
-        Source::Box { low, high } => (0..8).map(|i| [0, 1, 2].map(|c| if i >> c & 1 == 0 { low[c] } else { high[c] })).collect(),
+        Source::Box { low, high } => {
+            (0..8).map(|i| [0, 1, 2].map(|c| if i >> c & 1 == 0 { low[c] } else { high[c] })).collect()
+        }
         Source::Disc { centre, normal, radius } => {
             let (t, b) = frame(unit(*normal).unwrap_or([0.0, 1.0, 0.0]));
             // a square around the disc would reach further than it does: points on its rim, close together
@@ -186,7 +220,8 @@ pub(super) fn distinct<'a>(names: impl Iterator<Item = &'a At<String>>, what: &s
     let mut seen: Vec<&str> = Vec::new();
     for name in names {
         if seen.contains(&name.value.as_str()) {
-            return Err(wrong(name, format!("two {what}s are called '{}'", name.value)).help("results are given by name: use another"));
+            return Err(wrong(name, format!("two {what}s are called '{}'", name.value))
+                .help("results are given by name: use another"));
         }
         if name.value.trim().is_empty() {
             return Err(wrong(name, format!("a {what} without a name")));

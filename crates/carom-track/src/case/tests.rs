@@ -95,7 +95,11 @@ fn mistakes_are_refused_at_their_line() {
     refused("name = \"ceiling\"", "name = \"floor\"", &["two walls are called 'floor'"]);
     refused("normal = [0, 1, 0]", "normal = [0, 0, 0]", &["no direction"]);
     refused("diameter = \"90 um\"", "diameter = \"-90 um\"", &["diameter", "positive"]);
-    refused("diameter = \"90 um\"", "diameter = { lognormal = { median = \"70 um\", gsd = 0.5 } }", &["standard deviation"]);
+    refused(
+        "diameter = \"90 um\"",
+        "diameter = { lognormal = { median = \"70 um\", gsd = 0.5 } }",
+        &["standard deviation"],
+    );
     refused("count = 10", "count = 10\nparcels = 3", &["parcels"]);
     refused("until = \"2 s\"", "until = \"-2 s\"", &["until"]);
     refused("until = \"2 s\"", "until = \"2 s\"\ntolerance = 0.5", &["tolerance"]);

@@ -3,7 +3,8 @@
 use carom::material::MaterialRef;
 use carom::spec::{At, CurveSpec, LawSpec};
 use carom::units::{
-    Acceleration, AngularVelocity, Density, Frequency, Length, Mass, MassFlow, Number, Speed, Temperature, Time, Viscosity,
+    Acceleration, AngularVelocity, Density, Frequency, Length, Mass, MassFlow, Number, Speed, Temperature, Time,
+    Viscosity,
 };
 use std::collections::BTreeMap;
 
@@ -54,7 +55,6 @@ pub(super) struct FlowText {
     pub strain_rate: Option<At<Frequency>>,
     pub width: Option<At<Length>>,
     pub diameter: Option<At<Length>>,
-    pub distance: Option<At<Length>>,
     pub speed: Option<At<Speed>>,
     pub file: Option<At<String>>,
 }
@@ -224,6 +224,18 @@ pub(super) struct RunText {
 pub(super) struct OutputText {
     pub trajectories: Option<At<u64>>,
     pub impacts: Option<bool>,
+    pub vtk: Option<bool>,
+    pub size_bins: Option<At<Vec<Length>>>,
+    #[serde(default)]
+    pub region: Vec<At<RegionText>>,
+}
+
+#[derive(Debug, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RegionText {
+    pub name: At<String>,
+    #[serde(rename = "box")]
+    pub room: [[Length; 3]; 2],
 }
 
 /// The numbers in SI units.
@@ -304,7 +316,11 @@ mod forms {
                     f.write_str("a velocity such as [\"2 m/s\", \"0 m/s\", \"0 m/s\"], or \"fluid\"")
                 }
                 fn visit_str<E: de::Error>(self, v: &str) -> Result<VelocityText, E> {
-                    if v == "fluid" { Ok(VelocityText::Fluid) } else { Err(E::invalid_value(de::Unexpected::Str(v), &self)) }
+                    if v == "fluid" {
+                        Ok(VelocityText::Fluid)
+                    } else {
+                        Err(E::invalid_value(de::Unexpected::Str(v), &self))
+                    }
                 }
                 fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<VelocityText, A::Error> {
                     <[Speed; 3]>::deserialize(SeqAccessDeserializer::new(seq)).map(|p| VelocityText::Given(p.si()))

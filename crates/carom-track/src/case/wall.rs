@@ -13,7 +13,7 @@ use carom::spec::{At, LawSpec, NormalKind, NormalSpec, TangentialKind};
 use std::collections::BTreeMap;
 
 /// What a wall may be besides a law of the case.
-pub(super) const WORDS: [&str; 3] = ["trap", "escape", "reflect"];
+pub(super) const WORDS: [&str; 4] = ["trap", "escape", "wall-jet", "reflect"];
 
 /// The laws as written, by name.
 pub(super) type Laws = BTreeMap<String, At<LawSpec>>;
@@ -22,7 +22,9 @@ pub(super) type Laws = BTreeMap<String, At<LawSpec>>;
 pub(super) fn read(at: &At<WallText>) -> Result<Wall, SpecError> {
     let text = &at.value;
     let shape = match (&text.plane, &text.cylinder, &text.room) {
-        (Some(p), None, None) => Shape::Plane(Plane { point: p.value.point.si(), normal: direction(&p.value.normal, "normal")? }),
+        (Some(p), None, None) => {
+            Shape::Plane(Plane { point: p.value.point.si(), normal: direction(&p.value.normal, "normal")? })
+        }
         (None, Some(c), None) => {
             let c = &c.value;
             let sides = [("inside", true), ("outside", false)];
@@ -41,8 +43,15 @@ pub(super) fn read(at: &At<WallText>) -> Result<Wall, SpecError> {
             }
             Shape::Room(Room { min: a, max: b })
         }
-        (None, None, None) => return Err(wrong(at, format!("wall '{}' has no shape", text.name.value)).help("give plane, cylinder or box")),
-        _ => return Err(wrong(at, format!("wall '{}' has more than one shape", text.name.value)).help("keep one of plane, cylinder and box")),
+        (None, None, None) => {
+            return Err(
+                wrong(at, format!("wall '{}' has no shape", text.name.value)).help("give plane, cylinder or box")
+            );
+        }
+        _ => {
+            return Err(wrong(at, format!("wall '{}' has more than one shape", text.name.value))
+                .help("keep one of plane, cylinder and box"));
+        }
     };
     let contacts = [("surface", ContactAt::Surface), ("center", ContactAt::Center)];
     let contact_at = text.contact_at.as_ref().map_or(Ok(ContactAt::Surface), |c| word(c, "contact_at", &contacts))?;
@@ -51,7 +60,9 @@ pub(super) fn read(at: &At<WallText>) -> Result<Wall, SpecError> {
 }
 
 fn direction(at: &At<[f64; 3]>, key: &str) -> Result<[f64; 3], SpecError> {
-    unit(at.value).ok_or_else(|| wrong(at, format!("{key} has no direction: {:?}", at.value)).help("give a finite vector that is not zero"))
+    unit(at.value).ok_or_else(|| {
+        wrong(at, format!("{key} has no direction: {:?}", at.value)).help("give a finite vector that is not zero")
+    })
 }
 
 /// A wall may slide along itself, not leave its place.
@@ -74,13 +85,19 @@ fn velocity(text: &WallText, shape: &Shape) -> Result<[f64; 3], SpecError> {
 }
 
 /// What happens at a wall.
-pub(super) fn behavior(at: &At<WallText>, laws: &Laws, injections: &[Injected], library: &Library) -> Result<Behavior, SpecError> {
+pub(super) fn behavior(
+    at: &At<WallText>,
+    laws: &Laws,
+    injections: &[Injected],
+    library: &Library,
+) -> Result<Behavior, SpecError> {
     let text = &at.value;
     let name = text.law.value.as_str();
     if name != "reflect"
         && let Some(extra) = text.restitution.as_ref().or(text.tangential_restitution.as_ref())
     {
-        return Err(wrong(extra, format!("a restitution beside law = \"{name}\"")).help("only law = \"reflect\" takes its coefficients here"));
+        return Err(wrong(extra, format!("a restitution beside law = \"{name}\""))
+            .help("only law = \"reflect\" takes its coefficients here"));
     }
     if let Some(law) = laws.get(name) {
         return compile(text, name, law, injections, library).map(Behavior::Law);
@@ -88,6 +105,7 @@ pub(super) fn behavior(at: &At<WallText>, laws: &Laws, injections: &[Injected], 
     match name {
         "trap" => Ok(Behavior::Trap),
         "escape" => Ok(Behavior::Escape),
+        "wall-jet" => Ok(Behavior::WallJet),
         "reflect" => reflect(at, library),
         _ => Err(no_such_law(&text.law, laws.keys())),
     }
@@ -100,8 +118,13 @@ fn reflect(at: &At<WallText>, library: &Library) -> Result<Behavior, SpecError> 
     let tangential = needed(&text.tangential_restitution, at, "tangential_restitution", "law = \"reflect\"")?;
     let by_angle = |c: &carom::spec::CurveSpec| !matches!(c, carom::spec::CurveSpec::Constant(_));
     let spec = LawSpec {
-        normal: Some(NormalSpec::Named(if by_angle(&restitution.value) { NormalKind::ByAngle } else { NormalKind::Constant }).into()),
-        tangential: Some(if by_angle(&tangential.value) { TangentialKind::ByAngle } else { TangentialKind::Constant }.into()),
+        normal: Some(
+            NormalSpec::Named(if by_angle(&restitution.value) { NormalKind::ByAngle } else { NormalKind::Constant })
+                .into(),
+        ),
+        tangential: Some(
+            if by_angle(&tangential.value) { TangentialKind::ByAngle } else { TangentialKind::Constant }.into(),
+        ),
         restitution: Some(restitution.clone()),
         tangential_restitution: Some(tangential.clone()),
         ..LawSpec::default()
@@ -110,7 +133,13 @@ fn reflect(at: &At<WallText>, library: &Library) -> Result<Behavior, SpecError> 
 }
 
 /// One compiled law for all, or one for each injection's material where the law names no sphere.
-fn compile(text: &WallText, name: &str, law: &At<LawSpec>, injections: &[Injected], library: &Library) -> Result<Vec<carom::WallLaw>, SpecError> {
+fn compile(
+    text: &WallText,
+    name: &str,
+    law: &At<LawSpec>,
+    injections: &[Injected],
+    library: &Library,
+) -> Result<Vec<carom::WallLaw>, SpecError> {
     let place = |e: SpecError| e.at(law.span.clone());
     let spec = &law.value;
     if let Some(sphere) = &spec.sphere {
@@ -118,8 +147,13 @@ fn compile(text: &WallText, name: &str, law: &At<LawSpec>, injections: &[Injecte
             if let (MaterialRef::Name(a), Some(MaterialRef::Name(b))) = (&sphere.value, &injected.material)
                 && library.get(a).is_ok_and(|a| library.get(b).is_ok_and(|b| a != b))
             {
-                let message = format!("law '{name}' is for spheres of {a}, but {} injects {b} towards wall '{}'", injected.name, text.name.value);
-                return Err(SpecError::new(message).help("leave sphere out of the law: each injection then brings its own").at(sphere.span.clone()));
+                let message = format!(
+                    "law '{name}' is for spheres of {a}, but {} injects {b} towards wall '{}'",
+                    injected.name, text.name.value
+                );
+                return Err(SpecError::new(message)
+                    .help("leave sphere out of the law: each injection then brings its own")
+                    .at(sphere.span.clone()));
             }
         }
         return Ok(vec![spec.compile(library).map_err(place)?]);
@@ -154,7 +188,10 @@ pub(super) fn contradictions(texts: &[At<WallText>], walls: &[Wall], largest: f6
                         let message = if gap <= 0.0 {
                             format!("walls '{}' and '{}' contradict: each lies behind the other", b.name, a.name)
                         } else {
-                            format!("walls '{}' and '{}' are {gap} m apart: no room for a sphere of {largest} m", b.name, a.name)
+                            format!(
+                                "walls '{}' and '{}' are {gap} m apart: no room for a sphere of {largest} m",
+                                b.name, a.name
+                            )
                         };
                         return Err(wrong(at, message).help("a normal points out of the wall into the fluid"));
                     }

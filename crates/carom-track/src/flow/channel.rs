@@ -81,7 +81,7 @@ impl Channel {
     }
 
     /// Velocity at `x`, m/s.
-    #[inline]
+    #[inline(always)]
     pub fn velocity(&self, x: [f64; 3]) -> [f64; 3] {
         let u = match &self.shape {
             Shape::Plug => self.mean_speed,

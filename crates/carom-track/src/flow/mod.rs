@@ -10,7 +10,6 @@ mod pipe;
 mod profile;
 mod stagnation;
 mod table;
-mod tangent;
 
 pub use channel::Channel;
 pub use fluid::Fluid;
@@ -99,7 +98,7 @@ pub enum Flow {
 
 impl Flow {
     /// Fluid velocity at `x`, m/s: what drag needs, and no more.
-    #[inline]
+    #[inline(always)]
     pub fn velocity(&self, x: [f64; 3]) -> [f64; 3] {
         match self {
             Self::Still => [0.0; 3],

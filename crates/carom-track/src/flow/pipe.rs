@@ -100,7 +100,7 @@ impl Pipe {
     }
 
     /// Velocity at `x`, m/s.
-    #[inline]
+    #[inline(always)]
     pub fn velocity(&self, x: [f64; 3]) -> [f64; 3] {
         scale(self.axis, self.speed(norm(self.radial(x))))
     }

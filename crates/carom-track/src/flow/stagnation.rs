@@ -65,7 +65,7 @@ impl Stagnation {
     }
 
     /// Velocity at `x`, m/s.
-    #[inline]
+    #[inline(always)]
     pub fn velocity(&self, x: [f64; 3]) -> [f64; 3] {
         let d = sub(x, self.point);
         self.gradient.map(|row| dot(row, d))

@@ -47,26 +47,26 @@ impl Drag {
         }
     }
 
-    /// [`Drag::factor`] of `N` Reynolds numbers: the same bits, in loops that vectorise.
+    /// [`Drag::factor`] of `N` Reynolds numbers: the same bits, in loops that vectorise where the caller is compiled for
+    /// an instruction set with fused multiply-add.
     #[inline(always)]
     pub fn factors<const N: usize>(self, reynolds: &[f64; N]) -> [f64; N] {
-        // plain loops: closures and function pointers would stand in the way of vectors
-        let mut factors = [0.0; N];
+        let mut f = [1.0; N];
         match self {
-            Self::None => {}
-            Self::Stokes => factors = [1.0; N],
+            Self::None => f = [0.0; N],
+            Self::Stokes => {}
             Self::SchillerNaumann => {
-                for i in 0..N {
-                    factors[i] = schiller_naumann(reynolds[i]);
+                for (f, re) in f.iter_mut().zip(reynolds) {
+                    *f = schiller_naumann(*re);
                 }
             }
             Self::MorsiAlexander => {
-                for i in 0..N {
-                    factors[i] = morsi_alexander(reynolds[i]);
+                for (f, re) in f.iter_mut().zip(reynolds) {
+                    *f = morsi_alexander(*re);
                 }
             }
         }
-        factors
+        f
     }
 }
 

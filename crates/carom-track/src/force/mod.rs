@@ -124,3 +124,92 @@ impl Forces {
         Rates { acceleration: a, spin }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::flow::{Stagnation, Symmetry};
+    use crate::vector::cross;
+
+    const WATER: Fluid = Fluid { density: 998.0, viscosity: 1e-3, temperature: 293.15, mean_free_path: 0.0 };
+
+    #[test]
+    fn nothing_accelerates_at_the_terminal_speed() {
+        // a 100 µm glass bead in water: w = τ g (1 − s)/f(Re w), by fixed point
+        let sphere = Sphere { diameter: 1e-4, density: 2500.0 };
+        let stokes = relaxation_time(&WATER, &sphere, 1.0) * 9.81 * (1.0 - 998.0 / 2500.0);
+        let w = (0..100).fold(stokes, |w, _| stokes / drag::schiller_naumann(reynolds(&WATER, 1e-4, w)));
+        // 7.4 mm/s: slower than Stokes' 8.2 by the drag's rise at Re = 0.7
+        assert!((w - 7.4e-3).abs() < 1e-4, "{w}");
+        let rates = Forces::default().rates(&WATER, &sphere, &Local::uniform([0.0; 3]), [0.0, -w, 0.0], [0.0; 3]);
+        assert!(norm(rates.acceleration) < 1e-12 && rates.spin == [0.0; 3]);
+    }
+
+    #[test]
+    fn a_neutral_sphere_moves_as_the_fluid() {
+        // equal densities, v = u: pressure gradient and added mass together give exactly Du/Dt
+        let flow = Stagnation::new(Symmetry::Axisymmetric, [0.0; 3], [0.0, 0.0, 1.0], 100.0).unwrap();
+        let local = flow.sample([0.01, 0.02, 0.03]);
+        let forces = Forces { pressure_gradient: true, added_mass: true, ..Forces::default() };
+        let sphere = Sphere { diameter: 1e-4, density: WATER.density };
+        let a = forces.rates(&WATER, &sphere, &local, local.velocity, [0.0; 3]).acceleration;
+        assert!(norm(sub(a, local.acceleration)) < 1e-12 * norm(a), "{a:?} {local:?}");
+        assert!(forces.rates(&WATER, &sphere, &local, [0.0; 3], [0.0; 3]).acceleration != a);
+    }
+
+    #[test]
+    fn all_forces_turn_with_the_axes() {
+        let all =
+            Forces { saffman: true, magnus: true, rotational_drag: true, pressure_gradient: true, ..Forces::default() };
+        let all = Forces { added_mass: true, slip: Slip::Davies, ..all };
+        let local = Local {
+            gradient: [[1.0, 200.0, -3.0], [0.0, -2.0, 40.0], [7.0, 0.0, 1.0]],
+            acceleration: [1.0, -2.0, 3.0],
+            ..Local::uniform([2.0, 0.5, -0.3])
+        };
+        let (air, sphere) = (Fluid::default(), Sphere { diameter: 5e-5, density: 2000.0 });
+        let (v, spin) = ([1.0, -0.2, 0.1], [100.0, -300.0, 20.0]);
+        // x → y → z → x
+        let turn = |a: [f64; 3]| [a[2], a[0], a[1]];
+        let turned = Local {
+            velocity: turn(local.velocity),
+            gradient: turn_rows(local.gradient.map(turn)),
+            acceleration: turn(local.acceleration),
+            ..local
+        };
+        let a = all.rates(&air, &sphere, &local, v, spin);
+        let forces = Forces { gravity: turn(all.gravity), ..all };
+        let b = forces.rates(&air, &sphere, &turned, turn(v), turn(spin));
+        assert!(norm(sub(turn(a.acceleration), b.acceleration)) < 1e-12 * norm(a.acceleration));
+        assert!(norm(sub(turn(a.spin), b.spin)) < 1e-12 * norm(a.spin));
+        // every switch matters here
+        for one in [
+            Forces { saffman: false, ..all },
+            Forces { magnus: false, ..all },
+            Forces { pressure_gradient: false, ..all },
+            Forces { added_mass: false, ..all },
+            Forces { buoyancy: false, ..all },
+            Forces { slip: Slip::None, ..all },
+        ] {
+            assert_ne!(one.rates(&air, &sphere, &local, v, spin).acceleration, a.acceleration);
+        }
+        assert!(Forces::default().is_plain() && !all.is_plain());
+    }
+
+    fn turn_rows(g: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
+        [g[2], g[0], g[1]]
+    }
+
+    #[test]
+    fn lifts_do_no_work_on_the_slip() {
+        let local = Local { gradient: [[0.0, 500.0, 0.0], [0.0; 3], [0.0; 3]], ..Local::uniform([1.0, 0.0, 0.0]) };
+        let (air, sphere) = (Fluid::default(), Sphere { diameter: 5e-5, density: 2000.0 });
+        let lift_only =
+            Forces { gravity: [0.0; 3], drag: Drag::None, saffman: true, magnus: true, ..Forces::default() };
+        let v = [0.3, -0.1, 0.2];
+        let a = lift_only.rates(&air, &sphere, &local, v, [0.0, 0.0, 900.0]).acceleration;
+        let slip = sub(local.velocity, v);
+        assert!(norm(a) > 0.0 && crate::vector::dot(a, slip).abs() < 1e-12 * norm(a) * norm(slip));
+        assert!(norm(cross(a, slip)) > 0.0);
+    }
+}

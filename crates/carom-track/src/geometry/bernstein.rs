@@ -151,11 +151,8 @@ impl<const N: usize> Bernstein<N> {
     /// The root in a bracket that holds exactly one, positive at `low`: Newton's method kept inside the bracket.
     fn refine(&self, mut low: f64, mut high: f64) -> f64 {
         // where the chord between the ends crosses: close for the gentle curves of a step
-        let (at_low, at_high) = if low == 0.0 && high == 1.0 {
-            (self.0[0], self.0[N - 1])
-        } else {
-            (self.value(low), self.value(high))
-        };
+        let (at_low, at_high) =
+            if low == 0.0 && high == 1.0 { (self.0[0], self.0[N - 1]) } else { (self.value(low), self.value(high)) };
         let m = self.powers();
         let chord = low + (high - low) * at_low / (at_low - at_high);
         let mut theta = if chord > low && chord < high { chord } else { 0.5 * (low + high) };

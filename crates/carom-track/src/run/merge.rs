@@ -1,7 +1,7 @@
 //! Shards put together again.
 
 use super::RunError;
-use super::files::{IMPACTS, State, TRAJECTORIES, write_summary};
+use super::files::{IMPACTS, State, TRAJECTORIES, write_results};
 use crate::block::{IMPACTS_HEADER, TRAJECTORIES_HEADER};
 use crate::summary::Summary;
 use std::fs::File;
@@ -15,7 +15,8 @@ use std::path::{Path, PathBuf};
 pub fn merge(shards: &[PathBuf], out: &Path) -> Result<Summary, RunError> {
     let mut parts = Vec::new();
     for folder in shards {
-        let state = State::read(folder)?.ok_or_else(|| foreign(folder, "no checkpoint.json: not the output of a shard"))?;
+        let state =
+            State::read(folder)?.ok_or_else(|| foreign(folder, "no checkpoint.json: not the output of a shard"))?;
         if state.next < state.blocks.end {
             return Err(foreign(folder, "this shard is not finished: go on with it with --resume"));
         }
@@ -33,7 +34,11 @@ pub fn merge(shards: &[PathBuf], out: &Path) -> Result<Summary, RunError> {
         let wanted = i as u64 + 1;
         if state.shard.index != wanted {
             let twice = state.shard.index < wanted;
-            let message = if twice { format!("shard {}/{of} twice", state.shard.index) } else { format!("shard {wanted}/{of} is missing") };
+            let message = if twice {
+                format!("shard {}/{of} twice", state.shard.index)
+            } else {
+                format!("shard {wanted}/{of} is missing")
+            };
             return Err(foreign(folder, &message));
         }
     }
@@ -43,9 +48,12 @@ pub fn merge(shards: &[PathBuf], out: &Path) -> Result<Summary, RunError> {
     std::fs::create_dir_all(out).map_err(RunError::io(out))?;
     join(&parts, out, IMPACTS, IMPACTS_HEADER, |s| s.impacts)?;
     join(&parts, out, TRAJECTORIES, TRAJECTORIES_HEADER, |s| s.trajectories)?;
-    let mut summary = first.summary;
+    let mut summary = first.summary.clone();
     parts.iter().skip(1).for_each(|(s, _)| summary.merge(&s.summary));
-    write_summary(out, &summary)?;
+    if first.vtk {
+        super::vtk::write(out)?;
+    }
+    write_results(out, &summary, &first.bins)?;
     Ok(summary)
 }
 
@@ -54,7 +62,13 @@ fn foreign(path: &Path, message: &str) -> RunError {
 }
 
 /// One table after the other, with one header.
-fn join(parts: &[(State, &PathBuf)], out: &Path, name: &str, header: &str, length: impl Fn(&State) -> u64) -> Result<(), RunError> {
+fn join(
+    parts: &[(State, &PathBuf)],
+    out: &Path,
+    name: &str,
+    header: &str,
+    length: impl Fn(&State) -> u64,
+) -> Result<(), RunError> {
     if parts.iter().all(|(s, _)| length(s) == 0) {
         return Ok(());
     }

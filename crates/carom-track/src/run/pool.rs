@@ -83,18 +83,28 @@ mod tests {
     #[test]
     fn results_come_in_order_and_an_error_stops() {
         let mut seen = Vec::new();
-        in_order(4, 3..200, |n| n * n, |n, r| {
-            assert_eq!(r, n * n);
-            seen.push(n);
-            Ok(())
-        })
+        in_order(
+            4,
+            3..200,
+            |n| n * n,
+            |n, r| {
+                assert_eq!(r, n * n);
+                seen.push(n);
+                Ok(())
+            },
+        )
         .unwrap();
         assert_eq!(seen, (3..200).collect::<Vec<_>>());
         let mut count = 0;
-        let stopped = in_order(3, 0..1_000_000, |n| n, |_, n| {
-            count += 1;
-            if n == 10 { Err(RunError::NoFolder) } else { Ok(()) }
-        });
+        let stopped = in_order(
+            3,
+            0..1_000_000,
+            |n| n,
+            |_, n| {
+                count += 1;
+                if n == 10 { Err(RunError::NoFolder) } else { Ok(()) }
+            },
+        );
         assert!(stopped.is_err());
         assert_eq!(count, 11);
     }

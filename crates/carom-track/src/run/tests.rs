@@ -44,14 +44,21 @@ position = ["0 m", "10 mm", "0 m"]
 velocity = ["1 m/s", "1 m/s", "0 m/s"]
 [run]
 until = "0.1 s"
+[output]
+size_bins = ["30 um", "60 um"]
+[[output.region]]
+name = "first half"
+box = [["0 m", "-1 m", "-1 m"], ["100 mm", "1 m", "1 m"]]
 "#;
 
 fn case() -> Case {
     Case::from_toml(CASE, Path::new("case.toml"), &Library::builtin()).unwrap()
 }
 
-fn files(folder: &Path) -> [Vec<u8>; 3] {
-    [files::SUMMARY, files::IMPACTS, files::TRAJECTORIES].map(|n| fs::read(folder.join(n)).unwrap())
+fn files(folder: &Path) -> [Vec<u8>; 6] {
+    let names =
+        [files::SUMMARY, files::IMPACTS, files::TRAJECTORIES, files::DEPOSITION, "trajectories.vtp", "deposit.vtp"];
+    names.map(|n| fs::read(folder.join(n)).unwrap())
 }
 
 fn options(out: &Path, threads: usize) -> RunOptions {
@@ -76,7 +83,9 @@ fn threads_shards_and_order_leave_no_trace() {
         reversed.reverse();
         assert_eq!(merge(&reversed, &at(&format!("merged-{of}"))).unwrap(), whole);
         assert_eq!(files(&at("one")), files(&at(&format!("merged-{of}"))));
-        assert!(merge(&folders[1..], &at("missing")).unwrap_err().to_string().contains(&format!("shard 1/{of} is missing")));
+        assert!(
+            merge(&folders[1..], &at("missing")).unwrap_err().to_string().contains(&format!("shard 1/{of} is missing"))
+        );
     }
 }
 
@@ -94,11 +103,18 @@ fn nothing_is_lost_and_nothing_invented() {
     assert_eq!(sum, s.injected.mass);
     let coarse = case.injections[1].injection.total_mass().unwrap();
     assert!((coarse - 1e-6).abs() < 1e-20);
-    let json: serde_json::Value = serde_json::from_slice(&fs::read(folder.path().join("summary.json")).unwrap()).unwrap();
+    let json: serde_json::Value =
+        serde_json::from_slice(&fs::read(folder.path().join("summary.json")).unwrap()).unwrap();
     assert_eq!(json["injected"], 5000);
     assert_eq!(json["fates"]["lost"], 0);
-    let named: u64 = ["captured", "settled", "trapped", "escaped", "airborne"].iter().map(|f| json["fates"][f].as_u64().unwrap()).sum();
+    let named: u64 = ["captured", "settled", "trapped", "escaped", "airborne"]
+        .iter()
+        .map(|f| json["fates"][f].as_u64().unwrap())
+        .sum();
     assert_eq!(named, 5000);
+    let kept: u64 = s.deposition.kept.iter().flatten().flatten().map(|a| a.count).sum();
+    assert_eq!(kept, s.count(crate::record::Fate::Captured) + s.count(crate::record::Fate::Trapped));
+    assert_eq!(s.deposition.injected.iter().map(|a| a.count).sum::<u64>(), 5000);
     let mut rows = csv::Reader::from_path(folder.path().join("impacts.csv")).unwrap();
     let mut last = (0u64, 0.0f64);
     let mut impacts = 0;
@@ -132,7 +148,8 @@ fn resuming_drops_torn_rows_and_goes_on() {
     let mut state = State::new(&case, Shard::WHOLE, 0..5);
     let mut lengths = [crate::block::IMPACTS_HEADER.len(), crate::block::TRAJECTORIES_HEADER.len()];
     for b in 0..2 {
-        let block = block::track(&case, b * block::SIZE..(b + 1) * block::SIZE, Wanted { impacts: true, trajectories: true });
+        let block =
+            block::track(&case, b * block::SIZE..(b + 1) * block::SIZE, Wanted { impacts: true, trajectories: true });
         state.summary.merge(&block.summary);
         lengths[0] += block.impacts.len();
         lengths[1] += block.trajectories.len();
@@ -152,7 +169,8 @@ fn resuming_drops_torn_rows_and_goes_on() {
 fn resuming_something_else_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     run(&case(), &options(folder.path(), 2), &Silent).unwrap();
-    let other = Case::from_toml(&CASE.replace("seed = 3", "seed = 4"), Path::new("case.toml"), &Library::builtin()).unwrap();
+    let other =
+        Case::from_toml(&CASE.replace("seed = 3", "seed = 4"), Path::new("case.toml"), &Library::builtin()).unwrap();
     let resume = RunOptions { resume: true, ..options(folder.path(), 2) };
     assert!(run(&other, &resume, &Silent).unwrap_err().to_string().contains("case file was changed"));
     let shard = RunOptions { shard: Some(Shard { index: 1, of: 2 }), ..resume };

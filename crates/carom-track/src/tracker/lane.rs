@@ -1,5 +1,6 @@
 //! One particle in flight.
 
+use super::chance::Chance;
 use super::{Crew, Particle};
 use crate::geometry::evaluate;
 use crate::integrate::Lanes3;
@@ -22,6 +23,8 @@ pub(super) struct Lane {
     pub fitted: bool,
     /// Points of the path are wanted.
     pub trace: bool,
+    /// What changes at random.
+    pub chance: Chance,
 }
 
 impl Lane {
@@ -42,13 +45,30 @@ impl Lane {
     );
 
     pub const fn new(particle: Particle, trace: bool) -> Self {
-        Self { particle, time: particle.time, step: 0.0, steps: 0, impacts: 0, standing: 0, fitted: false, trace }
+        Self {
+            particle,
+            time: particle.time,
+            step: 0.0,
+            steps: 0,
+            impacts: 0,
+            standing: 0,
+            fitted: false,
+            trace,
+            chance: Chance::NONE,
+        }
     }
 
-    /// The next trial step, not beyond the end.
+    /// Where the next step must stop: at the end of the run or where something changes.
+    #[inline(always)]
+    pub fn stop(&self, until: f64) -> f64 {
+        let next = self.chance.next();
+        if next > self.time { until.min(next) } else { until }
+    }
+
+    /// The next trial step, not beyond the stop.
     #[inline(always)]
     pub fn next_step(&self, until: f64) -> f64 {
-        self.step.min(until - self.time)
+        self.step.min(self.stop(until) - self.time)
     }
 }
 

@@ -1,8 +1,8 @@
 use super::*;
-use crate::domain::{Analytic, ContactAt, Wall};
+use crate::domain::{Analytic, ContactAt, Domain, Wall};
 use crate::dynamics::Dynamics;
-use crate::force::{Drag, Forces};
 use crate::flow::{Flow, Fluid};
+use crate::force::{Drag, Forces};
 use crate::geometry::{Cylinder, Plane, Shape};
 use crate::record::{Event, ImpactRecord};
 
@@ -32,11 +32,18 @@ impl Sink for Log {
 }
 
 fn plane(name: &str, point: Vec3, normal: Vec3) -> Wall {
-    Wall { name: name.into(), shape: Shape::Plane(Plane { point, normal }), contact_at: ContactAt::Surface, velocity: [0.0; 3] }
+    Wall {
+        name: name.into(),
+        shape: Shape::Plane(Plane { point, normal }),
+        contact_at: ContactAt::Surface,
+        velocity: [0.0; 3],
+    }
 }
 
 fn bounce(restitution: f64) -> Behavior {
-    let law = format!("normal = \"constant\"\nrestitution = {restitution}\ntangential = \"constant\"\ntangential_restitution = 1.0\n");
+    let law = format!(
+        "normal = \"constant\"\nrestitution = {restitution}\ntangential = \"constant\"\ntangential_restitution = 1.0\n"
+    );
     let law = carom::spec::parse_law(&law).unwrap();
     Behavior::Law(vec![law.compile(&carom::material::Library::builtin()).unwrap()])
 }
@@ -64,7 +71,13 @@ fn sphere(number: u64, position: Vec3, velocity: Vec3) -> Particle {
     }
 }
 
-fn track(domain: &Analytic, dynamics: &Dynamics, behaviors: &[Behavior], settings: Settings, particles: &[Particle]) -> Log {
+fn track(
+    domain: &Analytic,
+    dynamics: &Dynamics,
+    behaviors: &[Behavior],
+    settings: Settings,
+    particles: &[Particle],
+) -> Log {
     let mut log = Log::default();
     Tracker { domain, dynamics, behaviors, settings }.run(&mut particles.iter().copied(), &mut log);
     assert_eq!(log.ends.len(), particles.len());
@@ -143,7 +156,8 @@ fn first_impact_by_small_steps(height: f64, v: [f64; 2], wind: f64) -> (f64, f64
 #[test]
 fn drag_matches_an_independent_integration() {
     let wind = 2.0;
-    let domain = Analytic::new(Flow::Uniform { velocity: [wind, 0.0, 0.0] }, vec![plane("floor", [0.0; 3], [0.0, 1.0, 0.0])]);
+    let domain =
+        Analytic::new(Flow::Uniform { velocity: [wind, 0.0, 0.0] }, vec![plane("floor", [0.0; 3], [0.0, 1.0, 0.0])]);
     let p = sphere(0, [0.0, 0.03, 0.0], [0.0, 0.5, 0.0]);
     let log = track(&domain, &dynamics(Drag::SchillerNaumann), &[Behavior::Trap], settings(), &[p]);
     let (time, speed) = first_impact_by_small_steps(0.03, [0.0, 0.5], wind);
@@ -159,7 +173,13 @@ fn halving_the_tolerance_moves_no_first_impact_by_more_than_the_tolerance() {
     let behaviors = [Behavior::Trap, Behavior::Trap];
     let particles: Vec<_> = (0..400).map(scattered).collect();
     let firsts = |tolerance: f64| {
-        let log = track(&domain, &dynamics(Drag::SchillerNaumann), &behaviors, Settings { tolerance, ..settings() }, &particles);
+        let log = track(
+            &domain,
+            &dynamics(Drag::SchillerNaumann),
+            &behaviors,
+            Settings { tolerance, ..settings() },
+            &particles,
+        );
         (0..400).map(|n| log.impacts.iter().find(|i| i.particle == n).map(|i| i.time).unwrap()).collect::<Vec<_>>()
     };
     for tolerance in [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8] {
@@ -171,14 +191,21 @@ fn halving_the_tolerance_moves_no_first_impact_by_more_than_the_tolerance() {
 
 fn channel() -> Analytic {
     let flow = Flow::Uniform { velocity: [1.0, 0.2, 0.0] };
-    Analytic::new(flow, vec![plane("floor", [0.0; 3], [0.0, 1.0, 0.0]), plane("ceiling", [0.0, 0.02, 0.0], [0.0, -1.0, 0.0])])
+    Analytic::new(
+        flow,
+        vec![plane("floor", [0.0; 3], [0.0, 1.0, 0.0]), plane("ceiling", [0.0, 0.02, 0.0], [0.0, -1.0, 0.0])],
+    )
 }
 
 fn scattered(n: u64) -> Particle {
     let s = n as f64;
     Particle {
         diameter: (20.0 + (s * 7.0) % 90.0) * 1e-6,
-        ..sphere(n, [0.0, 0.001 + 0.018 * ((s * 0.37) % 1.0), 0.0], [(s * 0.71) % 3.0, (s * 1.3) % 4.0 - 2.0, (s * 0.17) % 1.0])
+        ..sphere(
+            n,
+            [0.0, 0.001 + 0.018 * ((s * 0.37) % 1.0), 0.0],
+            [(s * 0.71) % 3.0, (s * 1.3) % 4.0 - 2.0, (s * 0.17) % 1.0],
+        )
     }
 }
 
@@ -263,7 +290,8 @@ fn contact_at_the_centre_comes_one_radius_later() {
 #[test]
 fn elastic_spheres_in_a_pipe_keep_energy_and_stay_inside() {
     let pipe = Cylinder { point: [0.0; 3], axis: [1.0, 0.0, 0.0], radius: 0.005, inside: true };
-    let wall = Wall { name: "pipe".into(), shape: Shape::Cylinder(pipe), contact_at: ContactAt::Surface, velocity: [0.0; 3] };
+    let wall =
+        Wall { name: "pipe".into(), shape: Shape::Cylinder(pipe), contact_at: ContactAt::Surface, velocity: [0.0; 3] };
     let domain = Analytic::new(Flow::Still, vec![wall]);
     let f = dynamics(Drag::None);
     let p = sphere(0, [0.0, 0.001, 0.002], [0.1, 0.7, -0.4]);
@@ -276,4 +304,71 @@ fn elastic_spheres_in_a_pipe_keep_energy_and_stay_inside() {
         assert!((energy(i.position[1], v) / energy(0.001, v0) - 1.0).abs() < 1e-10);
         assert!((pipe.distance(i.position) - 45e-6).abs() < 1e-15);
     }
+}
+
+#[test]
+fn brownian_spheres_spread_as_einstein_says() {
+    let domain = Analytic::new(Flow::Still, vec![]);
+    let mut d = dynamics(Drag::Stokes);
+    d.forces.gravity = [0.0; 3];
+    d.forces.slip = crate::force::Slip::Davies;
+    d.brownian = true;
+    let n = 300;
+    let diameter = 2e-7;
+    let particles: Vec<_> =
+        (0..n).map(|i| Particle { diameter, density: 1000.0, ..sphere(i, [0.0; 3], [0.0; 3]) }).collect();
+    let like = crate::force::Sphere { diameter, density: 1000.0 };
+    let tau = d.relaxation_time(&like);
+    let until = 100.0 * tau;
+    let log = track(&domain, &d, &[], Settings { until, tolerance: 1e-3, ..settings() }, &particles);
+    let spread = log.ends.iter().flat_map(|e| e.position).map(|x| x * x).sum::<f64>() / (3 * n) as f64;
+    let diffusivity = crate::force::brownian::diffusivity(&d.fluid, &like, d.slip(&like));
+    // from rest, 2D(t − 3τ/2) for t ≫ τ; four standard errors of a variance, seed 1
+    let ratio = spread / (2.0 * diffusivity * (until - 1.5 * tau));
+    assert!((ratio - 1.0).abs() < 4.0 * (2.0 / (3 * n) as f64).sqrt(), "{ratio}");
+}
+
+#[test]
+fn spheres_without_inertia_follow_the_eddies_of_a_channel_and_one_lane_gives_the_bits_of_eight() {
+    use crate::flow::{Channel, Profile};
+    let fluid = Fluid::default();
+    let flow = Flow::Channel(Channel::new(Profile::Turbulent, 0.02, 10.0, &fluid).unwrap());
+    let walls = vec![plane("low", [0.0; 3], [0.0, 1.0, 0.0]), plane("high", [0.0, 0.02, 0.0], [0.0, -1.0, 0.0])];
+    let domain = Analytic::new(flow, walls);
+    let mut d = dynamics(Drag::SchillerNaumann);
+    d.forces.gravity = [0.0; 3];
+    d.random_walk = Some(crate::force::RandomWalk::default());
+    let behaviors = [Behavior::Trap, Behavior::Trap];
+    let particles: Vec<_> = (0..200)
+        .map(|i| Particle { diameter: 5e-6, density: 1000.0, ..sphere(i, [0.0, 0.01, 0.0], [10.0, 0.0, 0.0]) })
+        .collect();
+    let settings = Settings { until: 0.02, tolerance: 1e-4, ..settings() };
+    let log = track(&domain, &d, &behaviors, settings, &particles);
+    let spread = log.ends.iter().map(|e| (e.position[1] - 0.01).powi(2)).sum::<f64>() / 200.0;
+    // Taylor: at most v' t, at least a tenth of it
+    let v = (domain.fluid([0.0, 0.01, 0.0]).k * 2.0 / 3.0).sqrt();
+    assert!(spread.sqrt() < 1.5 * v * 0.02 && spread.sqrt() > 0.1 * v * 0.02, "{} {}", spread.sqrt(), v * 0.02);
+    for p in particles.iter().take(20) {
+        let mut alone = Log::default();
+        let tracker = Tracker { domain: &domain, dynamics: &d, behaviors: &behaviors, settings };
+        tracker.run_plain(&mut std::iter::once(*p), &mut alone);
+        assert_eq!(log.ends.iter().find(|e| e.particle.number == p.number), alone.ends.first());
+    }
+}
+
+#[test]
+fn a_spinning_sphere_is_lifted_and_slows_down() {
+    let domain = Analytic::new(Flow::Still, vec![]);
+    let mut d = dynamics(Drag::SchillerNaumann);
+    d.forces.gravity = [0.0; 3];
+    d.forces.magnus = true;
+    d.forces.rotational_drag = true;
+    let p = Particle { spin: [0.0, 0.0, 2e4], ..sphere(0, [0.0; 3], [2.0, 0.0, 0.0]) };
+    let log = track(&domain, &d, &[], Settings { until: 0.05, ..settings() }, &[p]);
+    let end = log.ends[0];
+    // back-spin about +z of a sphere that flies along +x lifts it along +y; spin decays
+    assert!(end.position[1] > 1e-5 && end.spin[2] > 0.0 && end.spin[2] < 2e4, "{end:?}");
+    let finer = track(&domain, &d, &[], Settings { until: 0.05, tolerance: 1e-9, ..settings() }, &[p]).ends[0];
+    assert!((end.position[1] / finer.position[1] - 1.0).abs() < 1e-5);
+    assert!((end.spin[2] / finer.spin[2] - 1.0).abs() < 1e-5);
 }

@@ -229,7 +229,7 @@ fn with_friction<N: Normal, S: Sizing>(friction: f64, beta: f64, normal: &N, siz
         let slip = (-size.radius).mul_add(w, vt);
         let (p, _) = friction_impulse(friction * response.friction_share, beta, slip.abs(), normal_impulse);
         let signed = if slip < 0.0 { -p } else { p };
-        let spun = (2.5 * (p / size.radius)) * if slip < 0.0 { -1.0 } else { 1.0 } + w;
+        let spun = (p * (2.5 / size.radius)) * if slip < 0.0 { -1.0 } else { 1.0 } + w;
         fine &= out.write(
             i,
             &Row { v_n: vn, v_t: vt, spin: w, diameter: diameter[i] },

@@ -75,7 +75,7 @@ impl Work {
         let r2 = r * r;
         let r4 = r2 * r2;
         let product = (v4 * v4) * v4 * ((r4 * r4) * r2) * size_correction(size);
-        self.scale * math::exp(math::ln(product) * (-1.0 / 15.0))
+        self.scale * math::pow(product, -1.0 / 15.0)
     }
 
     /// Capture velocity of this loss alone, m/s: Ψ_A(1)^{5/4} exactly.
@@ -124,7 +124,7 @@ impl Jkr {
         let r2 = r * r;
         let k2 = size.kappa * size.kappa;
         let product = (r2 * r2) * r / (k2 * k2);
-        self.scale / size.density_ratio * math::exp(math::ln(product) * (-1.0 / 3.0))
+        self.scale / size.density_ratio * math::pow(product, -1.0 / 3.0)
     }
 
     /// The fraction of the normal kinetic energy that adhesion takes at approach speed `v` (m/s).

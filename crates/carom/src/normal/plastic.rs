@@ -81,14 +81,19 @@ fn universal_of_square(s2: f64, beta: f64) -> f64 {
     let h = b / (4.0 * a);
     let h1 = (1.0 + h) * (1.0 + h);
     let mut y = ((0.4 * (s2 - 1.0)) / a + h1 * h1).sqrt().sqrt() - h;
-    for _ in 0..3 {
+    let quartic = |y: f64| (a.mul_add(y, b) * (y * y)).mul_add(y, -target);
+    let mut inverse_slope = 0.0;
+    for _ in 0..2 {
         // Halley's step on q, q′ = y²(4a y + 3b), q″ = y(12a y + 6b)
-        let y2 = y * y;
-        let q = (a.mul_add(y, b) * y2).mul_add(y, -target);
-        let d = (4.0 * a).mul_add(y, 3.0 * b) * y2;
+        let q = quartic(y);
+        let d = (4.0 * a).mul_add(y, 3.0 * b) * (y * y);
         let dd = (12.0 * a).mul_add(y, 6.0 * b) * y;
-        y -= q * d / d.mul_add(d, -(0.5 * q) * dd);
+        inverse_slope = d / d.mul_add(d, -(0.5 * q) * dd);
+        y = (-q).mul_add(inverse_slope, y);
     }
+    // what is left is 1e-13 at most: Newton's steps with the slope at hand
+    y = (-quartic(y)).mul_add(inverse_slope, y);
+    y = (-quartic(y)).mul_add(inverse_slope, y);
     if yielding { (y * y * y / s2).min(1.0) } else { 1.0 }
 }
 

@@ -32,8 +32,8 @@ pub struct Moment {
 }
 
 impl Resolved {
-    /// The contact from first touch to its end, `per_step` moments in each integration step; initial slip (m/s) and friction
-    /// coefficient give the tangential motion (Eqs 26–28): Coulomb's law on the Hertz force until the slip ends.
+    /// The contact from first touch to its end, at least `points` moments; initial slip (m/s) and friction coefficient give the
+    /// tangential motion (Eqs 26–28): Coulomb's law on the Hertz force until the slip ends.
     pub fn history(
         &self,
         v: f64,
@@ -41,36 +41,30 @@ impl Resolved {
         scales: &Scales,
         slip: f64,
         friction: f64,
-        per_step: usize,
+        points: usize,
     ) -> Vec<Moment> {
         let contact = self.contact(v, size);
         let mass = 4.0 / 3.0 * PI * scales.density * size.density_ratio * size.radius * size.radius * size.radius;
         let r = size.radius * size.kappa;
         let length = math::pow(mass * v * v / (r.sqrt() * scales.stiffness), 0.4);
         let force = mass * v * v / length;
-        let per_step = per_step.max(1);
+        // the steps' length bounds their number from below: s runs up to about 1 and back at a speed of at most 1
+        let longest = 2.0 / points.clamp(4, 100_000) as f64;
         let mut moments = Vec::new();
-        let mut separating = false;
-        contact.solve(&mut |expansion, h| {
-            let first = usize::from(!moments.is_empty());
-            for i in first..=per_step {
-                let state = expansion.at(h * i as f64 / per_step as f64);
-                let x = (state.s * state.s).max(0.0);
-                let hertz = state.s.max(0.0) * x;
-                let adhesive = if contact.reversible || separating { contact.adhesion * state.s.max(0.0) } else { 0.0 };
-                let net = hertz * (1.0 + contact.hertz_damping * state.u)
-                    - adhesive * (1.0 - contact.adhesion_damping * state.u);
-                moments.push(Moment {
-                    time: state.time * length / v,
-                    overlap: x * length,
-                    speed: state.u * v,
-                    hertz_force: hertz * force,
-                    net_force: net * force,
-                    slip: slip.signum() * (slip.abs() - 3.5 * friction * state.impulse * v).max(0.0),
-                });
-            }
-            // the step that reaches the turning point is the last of the approach
-            separating |= expansion.at(h).u <= 1e-9;
+        contact.solve(longest, &mut |state, adhesive| {
+            let s = state.s.max(0.0);
+            let hertz = s * s * s;
+            let pull = if adhesive { contact.adhesion * s } else { 0.0 };
+            let net =
+                hertz * (1.0 + contact.hertz_damping * state.u) - pull * (1.0 - contact.adhesion_damping * state.u);
+            moments.push(Moment {
+                time: state.rides.time * length / v,
+                overlap: s * s * length,
+                speed: state.u * v,
+                hertz_force: hertz * force,
+                net_force: net * force,
+                slip: slip.signum() * (slip.abs() - 3.5 * friction * state.rides.impulse * v).max(0.0),
+            });
         });
         moments
     }

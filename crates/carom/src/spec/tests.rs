@@ -1,1 +1,159 @@
+use super::*;
+use crate::material::Library;
+use crate::wall::NormalLaw;
 
+const PAIR: &str = "sphere = \"copper\"\nsurface = \"aluminium\"\nfriction = 0.2\n";
+
+/// The complaint about a law text, with its place.
+fn complaint(text: &str) -> String {
+    match parse_law(text).and_then(|law| law.compile(&Library::builtin())) {
+        Ok(_) => panic!("accepted: {text}"),
+        Err(e) => e.located("law.toml", text),
+    }
+}
+
+fn refuses(text: &str, place: &str, parts: &[&str]) {
+    let message = complaint(text);
+    assert!(message.starts_with(&format!("law.toml{place}")), "{text}\n{message}");
+    for part in parts {
+        assert!(message.contains(part), "{text}\n{message}\nlacks {part}");
+    }
+}
+
+#[test]
+fn mistakes_are_refused_where_they_stand() {
+    for (text, place, parts) in [
+        ("normal = \"ae\"\n", ":1:10", &["unknown normal law 'ae'", "ea"][..]),
+        ("normal = \"adhesion-work\"\n", ":1:10", &["normal = [\"adhesion-work\"]"]),
+        ("normal = []\n", ":1:10", &["empty list"]),
+        ("normal = [\"adhesion-wrok\"]\n", ":1:10", &["did you mean adhesion-work?"]),
+        ("normal = [\"adhesion-work\", \"adhesion-jkr\"]\n", ":1:10", &["counted twice", "adhesion work"]),
+        ("normal = [\"hertz-damping\", \"hertz-damping\"]\n", ":1:10", &["twice"]),
+        ("normal = \"ea\"\nhertz_dampng = 3\n", ":2:1", &["hertz_dampng"]),
+        ("normal = \"ea\"\nroughness = \"1 s\"\n", ":2:13", &["no unit of length", "90 um"]),
+        ("normal = \"constant\"\nrestitution = 1.2\nfriction = 0\n", ":2:15", &["1.2", "between 0 and 1"]),
+        ("normal = \"constant\"\nfriction = 0\n", ":1:10", &["restitution = 0.7"]),
+        ("normal = \"by-angle\"\nrestitution = 0.7\nfriction = 0\n", ":2:15", &["constant"]),
+        (
+            "normal = \"by-angle\"\nrestitution = \"grant\"\nfriction = 0\n",
+            ":2:15",
+            &["unknown curve", "grant-tabakoff"],
+        ),
+        ("normal = \"by-angle\"\nrestitution = { polynomial = [2.0] }\nfriction = 0\n", ":2:15", &["gives 2.0000 at"]),
+        ("normal = \"by-angle\"\nrestitution = { angle_deg = [10, 45] }\n", ":2:15", &["one form"]),
+        (
+            "normal = \"constant\"\nrestitution = 0.5\ntangential = \"micro-slop\"\n",
+            ":3:14",
+            &["did you mean micro-slip?"],
+        ),
+        ("normal = \"constant\"\nrestitution = 0.5\n", "", &["friction"]),
+        ("normal = \"constant\"\nrestitution = 0.5\nfriction = -0.1\n", ":3:12", &["friction = -0.1", "zero or more"]),
+        ("normal = \"constant\"\nrestitution = 0.5\nfriction = nan\n", ":3:12", &["NaN"]),
+        (
+            "normal = \"constant\"\nrestitution = 0.5\nfriction = 0.1\ntangential = \"walton\"\n",
+            ":4:14",
+            &["walton_beta"],
+        ),
+        (
+            "normal = \"constant\"\nrestitution = 0.5\nfriction = 0.1\ntangential_restitution = 0.9\ntangential = \"rolling\"\n",
+            ":4:26",
+            &["no effect"],
+        ),
+    ] {
+        refuses(text, place, parts);
+    }
+}
+
+#[test]
+fn what_a_pair_lacks_is_named() {
+    for (text, place, parts) in [
+        ("sphere = \"coper\"\nsurface = \"aluminium\"\nnormal = \"ea\"\n", ":1:10", &["did you mean copper?"][..]),
+        ("sphere = { rho = 8000, E = \"190 GPa\", nu = 0.5 }\n", ":1:10", &["poisson_ratio = 0.5"]),
+        (
+            "sphere = \"E=190GPa,nu=0.27\"\nsurface = \"silicon\"\nnormal = \"ea\"\nfriction = 0\n",
+            ":3:10",
+            &["no surface energy", "work_of_adhesion"],
+        ),
+        (
+            "sphere = \"mica\"\nsurface = \"tedlar\"\nnormal = \"eap\"\nfriction = 0\n",
+            ":3:10",
+            &["yield strength", "plastic_constant"],
+        ),
+        ("normal = \"ea\"\nfriction = 0\n", ":1:10", &["sphere and surface"]),
+        ("surface = \"silicon\"\nnormal = \"ea\"\nfriction = 0\n", ":2:10", &["the sphere (not given)"]),
+    ] {
+        refuses(text, place, parts);
+    }
+}
+
+#[test]
+fn contradictions_are_refused() {
+    for (rest, place, parts) in [
+        (
+            "normal = \"ea\"\nroughness_factor = 0.5\nroughness = \"1 nm\"\n",
+            ":6:13",
+            &["both roughness_factor and roughness"][..],
+        ),
+        ("normal = \"ea\"\nroughness_factor = 0\n", ":5:20", &["C_R lies above 0"]),
+        ("normal = \"ea\"\nrestitution = 0.5\n", ":5:15", &["no effect"]),
+        ("normal = \"ea\"\nadhesion = \"reversible\"\n", ":5:12", &["resolved"]),
+        ("normal = \"thornton-ning\"\nroughness_factor = 0.5\n", ":5:20", &["adhesion-jkr"]),
+        ("normal = \"thornton-ning\"\nhertz_damping = 0.5\n", ":5:17", &["no effect", "hertz-damping"]),
+        ("normal = [\"adhesion-work\"]\nadhesion_damping = 1\n", ":5:20", &["adhesion-damping"]),
+        ("normal = [\"hertz-damping\"]\n", ":4:10", &["hertz_damping"]),
+        ("normal = \"tabor\"\n", ":4:10", &["yield_velocity"]),
+        ("normal = \"tabor\"\nyield_velocity = 0.1\nmeyer_index = 3\n", ":6:15", &["meyer_index = 3"]),
+        ("normal = \"ea\"\nsurface_curvature = 0\n", ":5:21", &["surface_curvature = 0"]),
+        ("normal = \"ea\"\nhertz_damping = -1\n", ":5:17", &["zero or more"]),
+        ("normal = \"ea\"\nstiffness = \"0 GPa\"\n", ":5:13", &["positive"]),
+        ("normal = \"ea\"\ntangential = \"micro-slip\"\n", ":5:14", &["not available yet"]),
+    ] {
+        refuses(&format!("{PAIR}{rest}"), place, parts);
+    }
+}
+
+#[test]
+fn named_laws_and_their_lists_are_the_same() {
+    let library = Library::builtin();
+    let compile = |rest: &str| {
+        let text = format!("{PAIR}{rest}");
+        parse_law(&text)
+            .and_then(|l| l.compile(&library))
+            .unwrap_or_else(|e| panic!("{}", e.located("law", &text)))
+            .normal
+    };
+    assert_eq!(compile("normal = \"ea\"\n"), compile("normal = [\"adhesion-work\"]\n"));
+    assert_eq!(
+        compile("normal = \"ea\"\nadhesion_damping = 1\nhertz_damping = 2\n"),
+        compile(
+            "normal = [\"adhesion-work\", \"adhesion-damping\", \"hertz-damping\"]\nadhesion_damping = 1\nhertz_damping = 2\n"
+        )
+    );
+    assert_eq!(compile("normal = \"eap\"\n"), compile("normal = [\"plastic-kadomtsev\", \"adhesion-work\"]\n"));
+    assert_eq!(
+        compile("normal = \"thornton-ning\"\n"),
+        compile("normal = [\"plastic-thornton-ning\", \"adhesion-jkr\"]\n")
+    );
+    assert!(matches!(compile("normal = \"resolved\"\n"), NormalLaw::Resolved(_)));
+}
+
+#[test]
+fn laws_are_found_by_name_among_other_tables() {
+    let text = "title = \"x\"\n[fluid]\ndensity = 1.2\n[law.glass]\nnormal = \"constant\"\nrestitution = 0.9\nfriction = 0.1\n[[wall]]\nname = \"floor\"\n";
+    assert!(parse_named_law(text, "glass").is_ok());
+    let broken = text.replace("restitution = 0.9", "restitution = 1 nm");
+    assert!(parse_named_law(&broken, "glass").is_err_and(|e| e.line_column(&broken).map(|p| p.0) == Some(6)));
+    assert!(parse_named_law("x = 1\n", "glass").is_err_and(|e| e.to_string().contains("no [law.NAME] table")));
+}
+
+#[test]
+fn roughness_above_its_calibration_is_flagged() {
+    let library = Library::builtin();
+    let flags = |rest: &str| {
+        let law = parse_law(&format!("{PAIR}{rest}")).and_then(|l| l.compile(&library)).expect("a good law");
+        law.validity.codes().collect::<Vec<_>>()
+    };
+    assert_eq!(flags("normal = \"ea\"\nroughness = \"1 nm\"\n"), ["roughness-extrapolated"]);
+    assert!(flags("normal = \"ea\"\nroughness = \"0.5 nm\"\n").is_empty());
+    assert!(flags("normal = \"ea\"\nroughness_factor = 0.15\n").is_empty());
+}

@@ -43,12 +43,7 @@ pub(super) fn approach(v_n: f64, relative: &Vec3, spin: &Vec3) -> Result<(), Imp
 /// One column's entries, for the batch: all fine?
 #[inline(always)]
 pub(crate) fn column_ok(v_n: f64, v_t: f64, spin: f64, diameter: f64) -> bool {
-    (v_n > 1e-150)
-        & (v_n < FASTEST)
-        & (v_t.abs() < FASTEST)
-        & (spin.abs() < 1e100)
-        & (diameter >= 1e-10)
-        & (diameter <= 10.0)
+    (v_n > 1e-150) & (v_n < FASTEST) & (v_t.abs() < FASTEST) & (spin.abs() < 1e100) & (1e-10..=10.0).contains(&diameter)
 }
 
 /// When the contact is no longer small against the sphere.

@@ -227,10 +227,8 @@ mod tests {
             let f = |[x, y, z]: [f64; 3]| [1.0 + 2.0 * x - y + z, x * y, -3.0 * z * x * y, x + 2.0, y + 1.0];
             let table = Table::from_csv(csv([X, Y, Z], f).as_bytes()).unwrap();
             let (local, want) = (table.sample([x, y, z]), f([x, y, z]));
-            for i in 0..3 {
-                prop_assert!((local.velocity[i] - want[i]).abs() < 1e-12);
-                prop_assert_eq!(local.velocity[i], table.velocity([x, y, z])[i]);
-            }
+            prop_assert!(local.velocity.iter().zip(want).all(|(got, want)| (got - want).abs() < 1e-12));
+            prop_assert_eq!(local.velocity, table.velocity([x, y, z]));
             prop_assert!((local.k - want[3]).abs() < 1e-12 && (local.epsilon - want[4]).abs() < 1e-12);
             let g = [[2.0, -1.0, 1.0], [y, x, 0.0], [-3.0 * z * y, -3.0 * z * x, -3.0 * x * y]];
             for (got, want) in local.gradient.iter().flatten().zip(g.iter().flatten()) {
