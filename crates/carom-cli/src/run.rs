@@ -17,8 +17,8 @@ Examples:
   carom run case.toml --out out/ --resume          go on where an interrupted run stopped
   carom run case.toml --out part2/ --shard 2/8     the second of eight parts, on a machine of its own
 
-The folder then holds summary.json, impacts.csv, trajectories.csv and trajectories.svg. The results do not
-depend on threads, interruptions or shards.";
+The folder then holds summary.json, impacts.csv, the paths (trajectories.csv, .vtp and .svg) and the deposit
+(deposition.csv, deposit.vtp). The results do not depend on threads, interruptions or shards.";
 
 /// Particles through a flow, from injection to fate, as a case file says
 #[derive(clap::Args)]
