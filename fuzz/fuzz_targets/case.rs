@@ -1,8 +1,13 @@
 //! Any text as a case file: it is read or refused, never a panic. `cargo +nightly fuzz run case`
 #![no_main]
 
+use carom::material::Library;
 use libfuzzer_sys::fuzz_target;
+use std::path::Path;
+use std::sync::LazyLock;
+
+static LIBRARY: LazyLock<Library> = LazyLock::new(Library::builtin);
 
 fuzz_target!(|text: &str| {
-    let _ = carom_track::Case::from_toml(text, "case.toml");
+    let _ = carom_track::Case::from_toml(text, Path::new("case.toml"), &LIBRARY);
 });
