@@ -41,6 +41,7 @@ fn batches(c: &mut Criterion) {
         ("ea", format!("normal = \"ea\"\n{DAMPED}")),
         ("eap", "normal = \"eap\"\n".to_owned()),
         ("thornton-ning", "normal = [\"plastic-thornton-ning\", \"adhesion-work\"]\n".to_owned()),
+        ("ea, micro-slip", format!("normal = \"ea\"\n{DAMPED}tangential = \"micro-slip\"\n")),
     ] {
         let law = law(&text);
         for set in InstructionSet::available() {
@@ -59,6 +60,7 @@ fn scalar(c: &mut Criterion) {
     for (name, text) in [
         ("ea", format!("normal = \"ea\"\n{DAMPED}")),
         ("eap", "normal = \"eap\"\n".to_owned()),
+        ("ea, micro-slip", format!("normal = \"ea\"\n{DAMPED}tangential = \"micro-slip\"\n")),
         ("constant", "normal = \"constant\"\nrestitution = 0.9\n".to_owned()),
         ("resolved", format!("normal = \"resolved\"\n{DAMPED}")),
     ] {

@@ -3,7 +3,7 @@
 use super::{Incidence, InstructionSet, Rebound};
 use crate::normal::ledger::{self, Adhesion, AdhesiveLoss, Elastic, Ledger, NoAdhesion, Plastic, PlasticLoss};
 use crate::normal::{Size, damping::Damping};
-use crate::tangential::{Tangential, constant, friction_impulse};
+use crate::tangential::{Coulomb, FrictionLaw, Tangential, constant};
 use crate::wall::{NormalLaw, NormalResponse, WallLaw, column_ok};
 
 /// Rows handled at once: the columns of a chunk stay in the first-level cache.
@@ -203,7 +203,10 @@ fn avx2<N: Normal, S: Sizing>(tangential: &Tangential, normal: &N, sizing: &S, c
 #[inline(always)]
 fn body<N: Normal, S: Sizing>(tangential: &Tangential, normal: &N, sizing: &S, chunk: &mut Chunk) {
     match tangential {
-        Tangential::Friction { friction, beta } => with_friction(*friction, *beta, normal, sizing, chunk),
+        Tangential::Friction { friction, beta } => {
+            with_friction(&Coulomb { friction: *friction, beta: *beta }, normal, sizing, chunk)
+        }
+        Tangential::MicroSlip(law) => with_friction(law.as_ref(), normal, sizing, chunk),
         Tangential::Restitution(curve) => {
             let Chunk { normal: v_n, tangential: v_t, spin, diameter, out, all_fine } = chunk;
             *all_fine = true;
@@ -227,7 +230,7 @@ fn body<N: Normal, S: Sizing>(tangential: &Tangential, normal: &N, sizing: &S, c
 }
 
 #[inline(always)]
-fn with_friction<N: Normal, S: Sizing>(friction: f64, beta: f64, normal: &N, sizing: &S, chunk: &mut Chunk) {
+fn with_friction<F: FrictionLaw, N: Normal, S: Sizing>(friction: &F, normal: &N, sizing: &S, chunk: &mut Chunk) {
     let Chunk { normal: v_n, tangential: v_t, spin, diameter, out, all_fine } = chunk;
     let mut fine = true;
     for i in 0..CHUNK {
@@ -236,7 +239,7 @@ fn with_friction<N: Normal, S: Sizing>(friction: f64, beta: f64, normal: &N, siz
         let response = normal.respond(vn, vt * vt, &size);
         let normal_impulse = (1.0 + response.e) * vn;
         let slip = (-size.radius).mul_add(w, vt);
-        let (p, _) = friction_impulse(friction * response.friction_share, beta, slip.abs(), normal_impulse);
+        let (p, _) = friction.impulse(slip.abs(), normal_impulse, &response);
         let signed = if slip < 0.0 { -p } else { p };
         let spun = (p * (2.5 / size.radius)) * if slip < 0.0 { -1.0 } else { 1.0 } + w;
         fine &= out.write(

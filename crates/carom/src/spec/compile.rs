@@ -15,7 +15,7 @@ use crate::normal::{Loss, plastic};
 use crate::pair::{Overrides, Pair};
 use crate::resolved::Resolved;
 use crate::roughness;
-use crate::tangential::Tangential;
+use crate::tangential::{Tangential, micro_slip::MicroSlip};
 use crate::validity::Validity;
 use crate::wall::{NormalLaw, WallLaw};
 
@@ -74,7 +74,7 @@ impl LawSpec {
         let place = normal_spec.span.clone();
         self.refuse_idle_keys(&normal_spec.value)?;
         let normal = self.normal_law(&normal_spec.value, pair.as_ref(), &numbers).map_err(|e| e.at(place))?;
-        let tangential = self.tangential_law()?;
+        let tangential = self.tangential_law(pair.as_ref())?;
         let mut law = WallLaw::assemble(normal, tangential, pair, numbers.surface_curvature);
         law.roughness = numbers.roughness;
         law.roughness_factor = numbers.roughness_factor;
@@ -319,7 +319,7 @@ impl LawSpec {
         Ok(Tabor { yield_velocity, meyer_index })
     }
 
-    fn tangential_law(&self) -> Result<Tangential, SpecError> {
+    fn tangential_law(&self, pair: Option<&Pair>) -> Result<Tangential, SpecError> {
         let kind = self.tangential.as_ref().map(|t| t.value).unwrap_or_else(|| match &self.tangential_restitution {
             None => TangentialKind::Rolling,
             Some(at) if at.value.is_constant() => TangentialKind::Constant,
@@ -356,9 +356,12 @@ impl LawSpec {
                 Tangential::Friction { friction: friction()?, beta }
             }
             TangentialKind::MicroSlip => {
-                return Err(SpecError::new("micro-slip is not available yet")
-                    .help("rolling, walton, constant or by-angle are")
-                    .at(place));
+                let friction = friction()?;
+                let ratio = pair
+                    .ok_or_else(|| need("a sphere and a surface for micro-slip", "both, with their E and nu"))
+                    .and_then(Pair::stiffness_ratio)
+                    .map_err(|e| e.at(place))?;
+                Tangential::MicroSlip(Box::new(MicroSlip::new(friction, ratio)))
             }
             TangentialKind::Constant | TangentialKind::ByAngle => {
                 let at = self
