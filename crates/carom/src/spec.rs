@@ -19,9 +19,11 @@
 //! assert_eq!(error.line_column("normal = \"ea\"\nfrictoin = 0.2\n"), Some((2, 1)));
 //! ```
 
+mod check;
 mod compile;
 mod curve;
 mod normal;
+mod tangential;
 mod values;
 
 pub use curve::CurveSpec;
