@@ -14,6 +14,8 @@ pub struct About {
     pub text: String,
     /// Walls that are planes.
     pub planes: Vec<AboutPlane>,
+    /// Edges of the size bins that were asked for, m.
+    pub size_bins: Vec<f64>,
     /// Injections, in the order of their particles' numbers.
     pub injections: Vec<AboutInjection>,
 }
@@ -58,6 +60,7 @@ impl About {
             title: case.title.clone(),
             text: case.text.clone(),
             planes: planes.collect(),
+            size_bins: case.bins.sizes.clone(),
             injections: injections.collect(),
         }
     }
