@@ -132,6 +132,10 @@ fn cell(text: &[u8], kind: Kind, texts: &mut Vec<Arc<str>>) -> Option<Cell> {
     if text.is_empty() {
         return Some(Cell::Missing);
     }
+    // much of a table of shares is zero
+    if kind == Kind::Float && text == b"0.0" {
+        return Some(Cell::Float(0.0));
+    }
     let text = std::str::from_utf8(text).ok()?;
     match kind {
         Kind::Float => text.parse().ok().map(Cell::Float),
