@@ -159,43 +159,81 @@ impl PlasticLoss for ThorntonNing {
     }
 }
 
-/// The adhesive losses as a type, likewise.
+/// What the losses took and what they left.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Balance {
+    pub losses: Losses,
+    /// e², not above zero for a capture: 1 − Σ ε_i with the fewest operations after the last-known number, Ψ_A.
+    pub left: f64,
+}
+
+impl Balance {
+    #[inline(always)]
+    pub fn restitution(&self) -> f64 {
+        if self.left > 0.0 { self.left.sqrt() } else { 0.0 }
+    }
+}
+
+/// The losses that grow with Ψ_A, as a type, likewise.
 pub(crate) trait AdhesiveLoss: Copy {
-    /// (adhesion, adhesion damping).
-    fn lost(&self, v: f64, size: &Size) -> (f64, f64);
+    fn share(&self, v: f64, size: &Size) -> Adhesive;
+}
+/// (adhesion, adhesion damping), and their sum as a product.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Adhesive {
+    adhesion: f64,
+    damping: f64,
+    power: f64,
+    weight: f64,
 }
 /// Ψ_A (counted or not) with its damping.
 #[derive(Clone, Copy)]
 pub(crate) struct WorkLoss {
-    pub work: Work,
-    pub counted: f64,
-    pub damping: Damping,
+    work: Work,
+    counted: f64,
+    damping: f64,
 }
 impl AdhesiveLoss for WorkLoss {
     #[inline(always)]
-    fn lost(&self, v: f64, size: &Size) -> (f64, f64) {
-        let psi = self.work.fraction(v, size);
-        (self.counted * psi, self.damping.adhesion_fraction(psi, v))
+    fn share(&self, v: f64, size: &Size) -> Adhesive {
+        let power = self.work.power(v, size);
+        let psi = self.work.scale() * power;
+        let damped = self.damping * v;
+        let weight = self.work.scale() * (self.counted + damped);
+        Adhesive { adhesion: self.counted * psi, damping: psi * damped, power, weight }
     }
 }
 #[derive(Clone, Copy)]
 pub(crate) struct NoAdhesion;
 impl AdhesiveLoss for NoAdhesion {
     #[inline(always)]
-    fn lost(&self, _: f64, _: &Size) -> (f64, f64) {
-        (0.0, 0.0)
+    fn share(&self, _: f64, _: &Size) -> Adhesive {
+        Adhesive::default()
     }
 }
+
 #[inline(always)]
-pub(crate) fn losses<A: AdhesiveLoss, P: PlasticLoss>(
+pub(crate) fn balance<A: AdhesiveLoss, P: PlasticLoss>(
     adhesive: &A,
     plastic: &P,
     damping: &Damping,
     v: f64,
     size: &Size,
-) -> Losses {
-    let (adhesion, adhesion_damping) = adhesive.lost(v, size);
-    Losses { adhesion, adhesion_damping, hertz_damping: damping.hertz_fraction(v), plastic: plastic.lost(v, size) }
+) -> Balance {
+    settle(&adhesive.share(v, size), plastic.lost(v, size), damping.hertz_fraction(v), 0.0)
+}
+
+#[inline(always)]
+fn settle(adhesive: &Adhesive, plastic: f64, hertz: f64, jkr: f64) -> Balance {
+    Balance {
+        losses: Losses {
+            adhesion: adhesive.adhesion + jkr,
+            adhesion_damping: adhesive.damping,
+            hertz_damping: hertz,
+            plastic,
+        },
+        left: (-adhesive.power).mul_add(adhesive.weight, 1.0 - (plastic + hertz) - jkr),
+    }
 }
 
 impl Ledger {
@@ -206,11 +244,8 @@ impl Ledger {
 
     #[inline(always)]
     pub(crate) fn work_loss(&self) -> WorkLoss {
-        WorkLoss {
-            work: self.work,
-            counted: f64::from(u8::from(self.adhesion == Adhesion::Work)),
-            damping: self.damping,
-        }
+        let counted = f64::from(u8::from(self.adhesion == Adhesion::Work));
+        WorkLoss { work: self.work, counted, damping: self.damping.adhesion }
     }
 
     /// Whether Ψ_A is needed at all.
@@ -219,13 +254,12 @@ impl Ledger {
         self.adhesion == Adhesion::Work || self.damping.adhesion != 0.0
     }
 
-    /// The fractions lost at normal approach speed `v` (m/s).
     #[inline(always)]
-    pub fn losses(&self, v: f64, size: &Size) -> Losses {
-        let (work, adhesion_damping) = if self.uses_work() { self.work_loss().lost(v, size) } else { (0.0, 0.0) };
-        let adhesion = match &self.adhesion {
+    pub(crate) fn balance(&self, v: f64, size: &Size) -> Balance {
+        let adhesive = if self.uses_work() { self.work_loss().share(v, size) } else { Adhesive::default() };
+        let jkr = match &self.adhesion {
             Adhesion::Jkr(jkr) => jkr.fraction(v, size),
-            _ => work,
+            _ => 0.0,
         };
         let plastic = match &self.plastic {
             Plastic::None => 0.0,
@@ -233,7 +267,12 @@ impl Ledger {
             Plastic::ThorntonNing(p) => p.fraction(v, size),
             Plastic::Tabor(p) => p.fraction(v),
         };
-        Losses { adhesion, adhesion_damping, hertz_damping: self.damping.hertz_fraction(v), plastic }
+        settle(&adhesive, plastic, self.damping.hertz_fraction(v), jkr)
+    }
+
+    /// The fractions lost at normal approach speed `v` (m/s).
+    pub fn losses(&self, v: f64, size: &Size) -> Losses {
+        self.balance(v, size).losses
     }
 
     /// Restitution at normal approach speed `v` (m/s).
@@ -245,7 +284,7 @@ impl Ledger {
     /// ```
     #[inline(always)]
     pub fn restitution(&self, v: f64, size: &Size) -> f64 {
-        self.losses(v, size).restitution()
+        self.balance(v, size).restitution()
     }
 
     /// Yield velocity of the ledger's own plastic loss, m/s.

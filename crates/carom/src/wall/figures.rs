@@ -63,7 +63,7 @@ impl Ledger {
     /// assert!((window.capture_velocity - 0.0269).abs() < 1e-4 && (window.exhausted_velocity - 128.3).abs() < 0.1);
     /// ```
     pub fn window(&self, size: &Size) -> Option<Window> {
-        let left = |v: f64| 1.0 - self.losses(v, size).total();
+        let left = |v: f64| self.balance(v, size).left;
         let adhesive = match &self.adhesion {
             Adhesion::None => 0.0,
             Adhesion::Work => self.work.capture_velocity(size),
