@@ -1,7 +1,7 @@
 //! The command line as a whole.
 
 use crate::failure::Failure;
-use crate::{capture, impact, materials, run, sweep};
+use crate::{capture, impact, materials, merge, run, sweep};
 use clap::{Parser, Subcommand};
 
 const EXAMPLES: &str = "\
@@ -30,6 +30,7 @@ enum Command {
     Capture(Box<capture::Args>),
     Materials(materials::Args),
     Run(run::Args),
+    Merge(merge::Args),
 }
 
 impl Cli {
@@ -41,6 +42,7 @@ impl Cli {
             Command::Capture(args) => capture::run(args),
             Command::Materials(args) => materials::run(args),
             Command::Run(args) => run::run(args),
+            Command::Merge(args) => merge::merge(args),
         }
     }
 }
