@@ -17,6 +17,7 @@ mod run;
 mod sweep;
 mod text;
 mod trajectories;
+mod validate;
 mod values;
 
 use clap::{CommandFactory as _, FromArgMatches as _};
