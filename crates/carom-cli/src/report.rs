@@ -32,18 +32,25 @@ pub fn write(about: &About, summary: &Summary, folder: &Path, report: bool) -> R
     }
     let title = if about.title.is_empty() { "A run of carom" } else { &about.title };
     let mut page = Report::new(title);
+    what::section(&mut page, about)?;
     fates(&mut page, summary)?;
     if let Some(mut plot) = picture {
         plot.title.clear();
         page.section("Paths").figure(&plot.svg()?, "Paths of the first particles, seen along z.");
     }
-    match tally::ends(folder, about, summary)? {
+    // the two tables are large and know nothing of each other
+    let (ends, impacts) = std::thread::scope(|scope| {
+        let ends = scope.spawn(|| tally::ends(folder, about, summary));
+        let impacts = tally::impacts(folder, about, summary);
+        (ends.join(), impacts)
+    });
+    match ends.map_err(|_| Failure::Other("the table of fates could not be read".to_owned()))?? {
         Some(ends) => deposits(&mut page, &ends, summary)?,
         None => {
             page.section("Deposit").paragraph("Not shown: the case has fates = false.");
         }
     }
-    match tally::impacts(folder, about, summary)? {
+    match impacts? {
         Some(impacts) => {
             distributions(&mut page, &impacts, summary)?;
             energy(&mut page, &impacts, summary);
@@ -52,7 +59,6 @@ pub fn write(about: &About, summary: &Summary, folder: &Path, report: bool) -> R
             page.section("Impacts").paragraph("Not shown: the case has impacts = false.");
         }
     }
-    what::section(&mut page, about)?;
     page.section("The case file").preformatted(&about.text);
     Ok(page.write(folder.join(FILE))?)
 }
@@ -70,9 +76,13 @@ fn fates(page: &mut Report, summary: &Summary) -> Result<(), Failure> {
     let table = Table::new([
         Column::text("fate", rows.iter().map(|f| f.name()).chain(["injected"])),
         Column::count("particles", rows.iter().map(|f| summary.count(*f)).chain([summary.injected.count])),
-        Column::float("share", "%", rows.iter().map(|f| 100.0 * summary.count(*f) as f64 / all).chain([100.0])),
+        Column::float(
+            "share",
+            "%",
+            rows.iter().map(|f| rounded(100.0 * summary.count(*f) as f64 / all)).chain([100.0]),
+        ),
         Column::float("mass", "kg", masses.clone().chain([mass])),
-        Column::float("share of mass", "%", masses.map(|m| 100.0 * m / mass).chain([100.0])),
+        Column::float("share of mass", "%", masses.map(|m| rounded(100.0 * m / mass)).chain([100.0])),
     ])?;
     page.section("Fates").table(&table, "How the particles ended, and the mass they stand for.");
     if summary.stalled > 0 {
@@ -94,6 +104,11 @@ fn fates(page: &mut Report, summary: &Summary) -> Result<(), Failure> {
     }
     page.table(&Table::new(columns)?, "What happened at each wall.");
     Ok(())
+}
+
+/// A percentage to a hundredth.
+fn rounded(percent: f64) -> f64 {
+    (100.0 * percent).round() / 100.0
 }
 
 /// The first few walls of which something holds, and how many more there are.

@@ -6,7 +6,7 @@ use crate::{output, report};
 use carom_report::{Column, Table};
 use carom_track::record::Fate;
 use carom_track::{About, Case, Progress, RunError, RunOptions, Shard, Summary};
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{HumanCount, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -91,8 +91,11 @@ impl Bar {
     fn new() -> Self {
         let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
         let style =
-            ProgressStyle::with_template("{wide_bar} {human_pos} of {human_len} particles, {per_sec}, {eta} left");
-        Self(style.map_or_else(|_| bar.clone(), |style| bar.clone().with_style(style)))
+            ProgressStyle::with_template("{wide_bar} {human_pos} of {human_len} particles, {rate}/s, {eta} left");
+        let rate = |state: &ProgressState, out: &mut dyn std::fmt::Write| {
+            let _ = write!(out, "{}", HumanCount(state.per_sec() as u64));
+        };
+        Self(style.map_or_else(|_| bar.clone(), |style| bar.clone().with_style(style.with_key("rate", rate))))
     }
 }
 

@@ -18,7 +18,10 @@ pub fn section(report: &mut Report, about: &About) -> Result<(), ReportError> {
     let given = rows.map(|(_, key, absent)| case.get(key).map_or_else(|| absent.to_owned(), |v| keys(v, &[])));
     let seed = case.get("seed").map_or_else(|| "1".to_owned(), text);
     let names = rows.map(|r| r.0).into_iter().chain(["seed"]);
-    report.table(&Table::new([Column::text("", names), Column::text(" ", given.into_iter().chain([seed]))])?, "");
+    report.table(
+        &Table::new([Column::text("what", names), Column::text("as given", given.into_iter().chain([seed]))])?,
+        "Flow and forces",
+    );
     let walls = list(&case, "wall");
     if !walls.is_empty() {
         let column = |name: &str, absent: &str| {
