@@ -1,7 +1,7 @@
 //! The command line as a whole.
 
 use crate::failure::Failure;
-use crate::{capture, impact, materials, run, sweep, validate};
+use crate::{capture, impact, materials, merge, run, sweep, validate};
 use clap::{Parser, Subcommand};
 
 const EXAMPLES: &str = "\
@@ -31,6 +31,7 @@ enum Command {
     Capture(Box<capture::Args>),
     Materials(materials::Args),
     Run(run::Args),
+    Merge(merge::Args),
     Validate(validate::Args),
 }
 
@@ -43,6 +44,7 @@ impl Cli {
             Command::Capture(args) => capture::run(args),
             Command::Materials(args) => materials::run(args),
             Command::Run(args) => run::run(args),
+            Command::Merge(args) => merge::merge(args),
             Command::Validate(args) => validate::run(args),
         }
     }

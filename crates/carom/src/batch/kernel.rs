@@ -86,6 +86,7 @@ fn run_ledger(machine: &Machine, law: &WallLaw, ledger: &Ledger, rows: &Incidenc
         Plastic::None => run_plastic(machine, law, ledger, &Elastic, rows, out),
         Plastic::Kadomtsev(p) => run_plastic(machine, law, ledger, p, rows, out),
         Plastic::ThorntonNing(p) => run_plastic(machine, law, ledger, p, rows, out),
+        Plastic::Bons(p) => run_plastic(machine, law, ledger, p, rows, out),
         Plastic::Tabor(_) => run_sized(machine, law, &law.normal, rows, out),
     }
 }

@@ -2,13 +2,14 @@
 //!
 //! e² = 1 − Σ ε_i(v), Kim & Dunn (2007), Eqs 24 and 37, J. Aerosol Sci. 38, 532–549,
 //! <https://doi.org/10.1016/j.jaerosci.2007.03.006>. e² ≤ 0 is capture. At most one of the two adhesion works and one of the
-//! three plastic losses may stand in a ledger: two of a kind would count the same energy twice.
+//! four plastic losses may stand in a ledger: two of a kind would count the same energy twice.
 //!
 //! The additive sum is an approximation where losses act on the same contact: adhesion work above yield keeps the elastic
 //! contact radius, and damping fitted on elastic contacts beside a plastic loss may count energy twice (`losses-overlap`).
 
 use super::Size;
 use super::adhesion::{Jkr, Work};
+use super::bons::Bons;
 use super::damping::Damping;
 use super::plastic::Kadomtsev;
 use super::tabor::Tabor;
@@ -29,19 +30,22 @@ pub enum Loss {
     PlasticThorntonNing,
     /// `plastic-tabor`
     PlasticTabor,
+    /// `plastic-bons`
+    PlasticBons,
     /// `adhesion-jkr`
     AdhesionJkr,
 }
 
 impl Loss {
     /// Every loss, in the order of the documentation.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::AdhesionWork,
         Self::AdhesionDamping,
         Self::HertzDamping,
         Self::PlasticKadomtsev,
         Self::PlasticThorntonNing,
         Self::PlasticTabor,
+        Self::PlasticBons,
         Self::AdhesionJkr,
     ];
 
@@ -54,6 +58,7 @@ impl Loss {
             Self::PlasticKadomtsev => "plastic-kadomtsev",
             Self::PlasticThorntonNing => "plastic-thornton-ning",
             Self::PlasticTabor => "plastic-tabor",
+            Self::PlasticBons => "plastic-bons",
             Self::AdhesionJkr => "adhesion-jkr",
         }
     }
@@ -62,7 +67,9 @@ impl Loss {
     pub fn kind(self) -> &'static str {
         match self {
             Self::AdhesionWork | Self::AdhesionJkr => "adhesion work",
-            Self::PlasticKadomtsev | Self::PlasticThorntonNing | Self::PlasticTabor => "plastic loss",
+            Self::PlasticKadomtsev | Self::PlasticThorntonNing | Self::PlasticTabor | Self::PlasticBons => {
+                "plastic loss"
+            }
             Self::AdhesionDamping => "adhesion damping",
             Self::HertzDamping => "Hertzian damping",
         }
@@ -91,6 +98,8 @@ pub enum Plastic {
     ThorntonNing(ThorntonNing),
     /// Tabor's.
     Tabor(Tabor),
+    /// Bons'.
+    Bons(Bons),
 }
 
 /// Compiled losses. `work` holds the constants of Ψ_A whether the adhesion work itself is in the ledger or only its damping.
@@ -153,6 +162,12 @@ impl PlasticLoss for Kadomtsev {
     }
 }
 impl PlasticLoss for ThorntonNing {
+    #[inline(always)]
+    fn lost(&self, v: f64, size: &Size) -> f64 {
+        self.fraction(v, size)
+    }
+}
+impl PlasticLoss for Bons {
     #[inline(always)]
     fn lost(&self, v: f64, size: &Size) -> f64 {
         self.fraction(v, size)
@@ -266,6 +281,7 @@ impl Ledger {
             Plastic::Kadomtsev(p) => p.fraction(v, size),
             Plastic::ThorntonNing(p) => p.fraction(v, size),
             Plastic::Tabor(p) => p.fraction(v),
+            Plastic::Bons(p) => p.fraction(v, size),
         };
         settle(&adhesive, plastic, self.damping.hertz_fraction(v), jkr)
     }
@@ -294,7 +310,13 @@ impl Ledger {
             Plastic::Kadomtsev(p) => Some(p.yield_squared(size).sqrt()),
             Plastic::ThorntonNing(p) => Some(p.yield_squared(size).sqrt()),
             Plastic::Tabor(p) => Some(p.yield_velocity),
+            Plastic::Bons(p) => Some(p.yield_squared(size).sqrt()),
         }
+    }
+
+    /// Can the plastic loss end the rebound at high speed, as damping can?
+    pub fn plastic_can_exhaust(&self) -> bool {
+        matches!(self.plastic, Plastic::Bons(_))
     }
 
     /// (V_y)², infinite without a plastic loss; cheap enough for every impact.
@@ -305,6 +327,7 @@ impl Ledger {
             Plastic::Kadomtsev(p) => p.yield_squared(size),
             Plastic::ThorntonNing(p) => p.yield_squared(size),
             Plastic::Tabor(p) => p.yield_velocity * p.yield_velocity,
+            Plastic::Bons(p) => p.yield_squared(size),
         }
     }
 }

@@ -101,7 +101,7 @@ impl WallLaw {
                         yield_squared,
                     )))
                     .with(Validity::LOSSES_OVERLAP.when(yielding && !ledger.damping.is_none()));
-                if response.e <= 0.0 && !ledger.damping.is_none() {
+                if response.e <= 0.0 && (!ledger.damping.is_none() || ledger.plastic_can_exhaust()) {
                     validity = validity.with(self.why_captured(v, size));
                 }
             }
