@@ -141,7 +141,7 @@ pub fn panel(experiment: &Experiment, panel: &Panel, models: &[Model<'_>]) -> Re
     let points: Vec<(Point, &str)> = panel
         .measured
         .iter()
-        .flat_map(|m| std::iter::repeat(m.source.as_str()).take(m.value.len()))
+        .flat_map(|m| std::iter::repeat_n(m.source.as_str(), m.value.len()))
         .zip(panel.points())
         .map(|(source, point)| (point, source))
         .collect();

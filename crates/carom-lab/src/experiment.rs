@@ -84,6 +84,8 @@ pub struct Experiment {
     pub source: String,
     /// Where the values come from, or that there are none.
     pub values_from: String,
+    /// The file of points beside it and what that says of itself, if there is one.
+    pub points_from: Option<String>,
     /// What a reader should know.
     pub notes: Vec<String>,
     /// The plots.
@@ -271,12 +273,18 @@ impl Experiment {
             title: file.title,
             source: file.source,
             values_from: file.values_from,
+            points_from: None,
             notes: file.notes,
             panels: file.panels,
             claims: file.claims,
         };
         experiment.check().map_err(wrong)?;
         Ok(experiment)
+    }
+
+    /// Where the values come from: the file of points if there is one, else what the experiment's own file says.
+    pub fn values_from(&self) -> &str {
+        self.points_from.as_deref().unwrap_or(&self.values_from)
     }
 
     /// Checks what serde cannot.

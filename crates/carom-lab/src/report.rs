@@ -126,22 +126,30 @@ fn panel(report: &mut Report, v: &Validation, panel: &PanelResult) -> Result<(),
         Tier::Prediction => "Prediction only, held against nothing".to_owned(),
         tier => format!("Held against: {}", tier.name()),
     };
-    report.paragraph(&format!("{worth}. {}. Values: {}.", experiment.source, experiment.values_from));
+    report.paragraph(&format!("{worth}. {}. Values: {}.", experiment.source, experiment.values_from()));
     report.figure(&panel.plot.svg()?, &inputs_of(panel));
     let first = v.panels.iter().find(|p| p.experiment == panel.experiment && p.figure == panel.figure);
     if first.is_some_and(|p| p.panel == panel.panel) {
         report.list(&experiment.notes);
     }
     for comparison in v.of(panel) {
-        report.table(
-            &deviations(comparison)?,
-            &format!(
-                "{}: greatest deviation {:.4}, root mean square {:.4} ({}.toml, law.{}).",
-                comparison.curve, comparison.greatest, comparison.rms, comparison.experiment, comparison.law
-            ),
+        let mut caption = format!(
+            "{}: greatest deviation {:.4}, root mean square {:.4} ({}.toml, law.{}).",
+            comparison.curve, comparison.greatest, comparison.rms, comparison.experiment, comparison.law
         );
+        if let [source] = sources(comparison)[..] {
+            caption += &format!(" Values: {source}.");
+        }
+        report.table(&deviations(comparison)?, &caption);
     }
     Ok(())
+}
+
+/// Where the values come from, each source once.
+fn sources(comparison: &Comparison) -> Vec<&str> {
+    let mut sources: Vec<&str> = comparison.points.iter().map(|p| p.source.as_str()).collect();
+    sources.dedup();
+    sources
 }
 
 fn inputs_of(panel: &PanelResult) -> String {
@@ -174,9 +182,7 @@ fn deviations(c: &Comparison) -> Result<Table, LabError> {
         };
         columns.push(Column::text("bound", c.points.iter().map(|p| word(p.holds))));
     }
-    let mut sources: Vec<&str> = c.points.iter().map(|p| p.source.as_str()).collect();
-    sources.dedup();
-    if sources.len() > 1 {
+    if sources(c).len() > 1 {
         columns.push(Column::text("source", c.points.iter().map(|p| p.source.as_str())));
     }
     Ok(Table::new(columns)?)
