@@ -72,7 +72,7 @@ impl Tier {
 }
 
 /// An experiment.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Experiment {
     /// Name of its file, without ending: `wall-1990`.
     pub name: String,
@@ -89,8 +89,10 @@ pub struct Experiment {
     /// What a reader should know.
     pub notes: Vec<String>,
     /// The plots.
+    #[serde(skip)]
     pub panels: Vec<Panel>,
     /// Single numbers that a source prints, to be recomputed.
+    #[serde(skip)]
     pub claims: Vec<Claim>,
 }
 

@@ -253,7 +253,7 @@ fn forms(report: &mut Report, v: &Validation) -> Result<(), LabError> {
     report.figure(&resolved::plot(f).svg()?, "Restitution by every form.");
     report.figure(
         &resolved::difference(f).svg()?,
-        "Algebraic minus resolved. Near capture both fall to zero, at slightly different speeds.",
+        "Algebraic minus resolved, from just above the capture velocity (0.026 m/s) on.",
     );
     let rows: Vec<_> = f.rows.iter().step_by(12).collect();
     report.table(
@@ -279,15 +279,15 @@ fn table_2(report: &mut Report, v: &Validation) -> Result<(), LabError> {
             Column::text("sphere", rows.iter().map(|r| r.sphere.as_str())),
             Column::text("surface", rows.iter().map(|r| r.surface.as_str())),
             Column::text("K (GPa)", rows.iter().map(|r| giga(Some(r.stiffness)))),
-            Column::text("from Table 1", rows.iter().map(|r| giga(r.stiffness_computed))),
+            Column::text("K from materials", rows.iter().map(|r| giga(r.stiffness_computed))),
             Column::text("w (J/m2)", rows.iter().map(|r| significant(r.work_of_adhesion, 3))),
             Column::text(
-                "from Table 1 ",
+                "w from materials",
                 rows.iter().map(|r| r.work_of_adhesion_computed.map(|w| significant(w, 3)).unwrap_or_default()),
             ),
             Column::text("note", rows.iter().map(|r| r.note.as_str())),
         ])?,
-        "kim-dunn-2007-pairs.toml against what the library's materials give.",
+        "data/materials/kim-dunn-2007-pairs.toml against what the library's materials give: those of the paper's Table 1, and fused silica for quartz.",
     );
     Ok(())
 }
@@ -300,7 +300,10 @@ fn identities(report: &mut Report, v: &Validation) -> Result<(), LabError> {
         .table(
             &Table::new([
                 Column::text("identity", all.iter().map(|i| i.says.as_str())),
-                Column::text("off by", all.iter().map(|i| format!("{:.0e}", i.off))),
+                Column::text(
+                    "off by",
+                    all.iter().map(|i| if i.off == 0.0 { "0".to_owned() } else { format!("{:.0e}", i.off) }),
+                ),
                 Column::text("allowed", all.iter().map(|i| format!("{:.0e}", i.allowed))),
             ])?,
             "Identities.",

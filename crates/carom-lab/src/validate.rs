@@ -64,7 +64,6 @@ pub struct Validation {
     /// What must hold by construction.
     pub identities: Vec<Identity>,
     /// The experiments, as read.
-    #[serde(skip)]
     pub experiments: Vec<Experiment>,
 }
 
