@@ -1,8 +1,8 @@
 //! `carom validate`: every experiment against the models, as a table and a report.
 
 use crate::failure::{Failure, of_file, say};
+use crate::law::MaterialsArgs;
 use crate::output;
-use carom::material::Library;
 use carom_lab::LabError;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -26,6 +26,8 @@ pub struct Args {
     /// Folder of experiments instead of those that come along
     #[arg(long, value_name = "DIR")]
     experiments: Option<PathBuf>,
+    #[command(flatten)]
+    materials: MaterialsArgs,
     /// Print everything as JSON
     #[arg(long, help_heading = "Output")]
     json: bool,
@@ -39,7 +41,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let experiments = args.experiments.as_deref().map_or_else(carom_lab::builtin, carom_lab::from_folder);
     let folder = args.experiments.as_deref();
     let failed = |e| self::failed(e, folder);
-    let found = carom_lab::validate(experiments.map_err(failed)?, &Library::builtin()).map_err(failed)?;
+    let found = carom_lab::validate(experiments.map_err(failed)?, &args.materials.library()?).map_err(failed)?;
     if let Some(folder) = &args.out {
         found.write(folder).map_err(failed)?;
         say(&format!("wrote {}", folder.join("report.html").display()));
@@ -49,8 +51,12 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     }
     let mut text = found.summary().map_err(failed)?.to_text();
     let missed: Vec<_> = found.claims.iter().filter(|c| !c.holds).collect();
-    let _ =
-        writeln!(text, "\n{} of {} claims are not reproduced from their own inputs:", missed.len(), found.claims.len());
+    let _ = writeln!(
+        text,
+        "\n{} of {} claims of the paper are not reproduced from their own inputs:",
+        missed.len(),
+        found.claims.len()
+    );
     for claim in missed {
         let _ = writeln!(text, "- {}: computed {}", claim.says, carom_report::significant(claim.computed, 3));
     }

@@ -41,7 +41,10 @@ impl<'a> Model<'a> {
         for wall in &self.walls {
             let value = meet(wall, quantity, speed, angle_deg, diameter)
                 .map_err(|e| LabError::Model(format!("{}: {e}", self.curve.label)))?;
-            ends = if value.is_nan() { (f64::NAN, f64::NAN) } else { (ends.0.min(value), ends.1.max(value)) };
+            if value.is_nan() {
+                return Ok((f64::NAN, f64::NAN));
+            }
+            ends = (ends.0.min(value), ends.1.max(value));
         }
         Ok(ends)
     }
@@ -55,6 +58,11 @@ fn meet(wall: &WallLaw, quantity: Quantity, speed: f64, angle_deg: f64, d: f64) 
         Quantity::TangentialRestitution => out.tangential_restitution,
         Quantity::ImpulseRatio => out.impulse_ratio,
     })
+}
+
+/// The number between `low` and `high` that is nearest to `value`; NaN where the model has none.
+fn nearest(value: f64, low: f64, high: f64) -> f64 {
+    if low.is_nan() { f64::NAN } else { value.max(low).min(high) }
 }
 
 /// One value and what a model gives there.
@@ -93,6 +101,8 @@ pub struct Comparison {
     pub diameter: f64,
     /// What the values are.
     pub tier: Tier,
+    /// What the values run over.
+    pub over: Over,
     /// Each value.
     pub points: Vec<Pointwise>,
     /// Greatest |deviation|.
@@ -103,7 +113,9 @@ pub struct Comparison {
 
 impl Comparison {
     fn new(experiment: &Experiment, panel: &Panel, curve: &Curve, tier: Tier, points: Vec<Pointwise>) -> Self {
-        let greatest = points.iter().map(|p| p.deviation.abs()).fold(0.0, f64::max);
+        // a model without a value somewhere has no greatest deviation
+        let greatest =
+            points.iter().map(|p| p.deviation.abs()).fold(0.0, |a: f64, b| if b > a || b.is_nan() { b } else { a });
         let rms = (points.iter().map(|p| p.deviation * p.deviation).sum::<f64>() / points.len() as f64).sqrt();
         Self {
             experiment: experiment.name.clone(),
@@ -113,6 +125,7 @@ impl Comparison {
             law: curve.law.value.clone(),
             diameter: curve.diameter.0,
             tier,
+            over: panel.over,
             points,
             greatest,
             rms,
@@ -150,7 +163,7 @@ pub fn panel(experiment: &Experiment, panel: &Panel, models: &[Model<'_>]) -> Re
         for (point, source) in points.iter().filter(|(p, _)| fits(model.curve, p)) {
             let d = point.diameter.unwrap_or(model.curve.diameter.0);
             let (low, high) = model.at(panel.quantity, point.speed, point.angle_deg, d)?;
-            let nearest = point.value.clamp(low.min(high), high.max(low));
+            let nearest = nearest(point.value, low, high);
             measured.push(Pointwise {
                 at: panel.place(point),
                 value: point.value,
@@ -183,7 +196,7 @@ fn stated(panel: &Panel, model: &Model<'_>) -> Result<Vec<Pointwise>, LabError> 
         for (bound, is_above) in [(stated.above, true), (stated.below, false)] {
             let Some(value) = bound else { continue };
             let holds = if is_above { high >= value - stated.sigma } else { low <= value + stated.sigma };
-            let nearest = value.clamp(low.min(high), high.max(low));
+            let nearest = nearest(value, low, high);
             points.push(Pointwise {
                 at: stated.at,
                 value,

@@ -27,6 +27,10 @@
 //! # Ok::<(), carom_lab::LabError>(())
 //! ```
 
+mod values;
+
+pub use values::{Measured, Point, Stated};
+
 use crate::error::LabError;
 use carom::material::Library;
 use carom::spec::{At, parse_named_law};
@@ -68,7 +72,7 @@ impl Tier {
 }
 
 /// An experiment.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Experiment {
     /// Name of its file, without ending: `wall-1990`.
     pub name: String,
@@ -80,11 +84,15 @@ pub struct Experiment {
     pub source: String,
     /// Where the values come from, or that there are none.
     pub values_from: String,
+    /// The file of points beside it and what that says of itself, if there is one.
+    pub points_from: Option<String>,
     /// What a reader should know.
     pub notes: Vec<String>,
     /// The plots.
+    #[serde(skip)]
     pub panels: Vec<Panel>,
     /// Single numbers that a source prints, to be recomputed.
+    #[serde(skip)]
     pub claims: Vec<Claim>,
 }
 
@@ -177,41 +185,6 @@ pub struct Curve {
     pub dashed: bool,
 }
 
-/// Measured points, in arrays of one length.
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Measured {
-    /// Where they come from.
-    pub source: String,
-    /// Speed, m/s; the panel's when absent.
-    pub speed: Vec<f64>,
-    /// Angle from the surface, degrees; 90 when absent.
-    pub angle_deg: Vec<f64>,
-    /// The same from the normal.
-    pub angle_from_normal_deg: Vec<f64>,
-    /// Diameter, m; the curve's when absent.
-    pub diameter: Vec<f64>,
-    /// The panel's quantity.
-    pub value: Vec<f64>,
-    /// Standard uncertainty of each; may be absent.
-    pub sigma: Vec<f64>,
-}
-
-/// A point.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Point {
-    /// Speed, m/s.
-    pub speed: f64,
-    /// Angle from the surface, degrees.
-    pub angle_deg: f64,
-    /// Diameter, m; the curve's when absent.
-    pub diameter: Option<f64>,
-    /// The panel's quantity.
-    pub value: f64,
-    /// Its standard uncertainty.
-    pub sigma: Option<f64>,
-}
-
 impl Panel {
     /// All measured points.
     pub fn points(&self) -> impl Iterator<Item = Point> + '_ {
@@ -236,66 +209,6 @@ impl Panel {
             self.tier.unwrap_or(Tier::Prediction)
         }
     }
-}
-
-impl Measured {
-    fn point(&self, n: usize, speed: Option<f64>) -> Point {
-        let from_normal = self.angle_from_normal_deg.get(n).map(|a| 90.0 - a);
-        Point {
-            speed: self.speed.get(n).copied().or(speed).unwrap_or(f64::NAN),
-            angle_deg: self.angle_deg.get(n).copied().or(from_normal).unwrap_or(90.0),
-            diameter: self.diameter.get(n).copied(),
-            value: self.value[n],
-            sigma: self.sigma.get(n).copied(),
-        }
-    }
-
-    fn check(&self, panel: &Panel) -> Result<(), SpecError> {
-        let wanted = self.value.len();
-        let columns = [
-            ("speed", &self.speed),
-            ("angle_deg", &self.angle_deg),
-            ("angle_from_normal_deg", &self.angle_from_normal_deg),
-            ("diameter", &self.diameter),
-            ("sigma", &self.sigma),
-        ];
-        for (name, column) in columns {
-            if !column.is_empty() && column.len() != wanted {
-                let message =
-                    format!("measured points of {}: {} of {name} for {wanted} values", panel.name, column.len());
-                return Err(SpecError::new(message).help("give one for each value, or none"));
-            }
-        }
-        if self.source.is_empty() {
-            return Err(SpecError::new(format!("measured points of {} without a source", panel.name)));
-        }
-        let mut points = (0..wanted).map(|n| self.point(n, panel.speed.map(|s| s.0)));
-        if points.any(|p| !(p.speed > 0.0 && p.angle_deg > 0.0 && p.angle_deg <= 90.0 && p.value.is_finite())) {
-            let message = format!(
-                "measured points of {}: speeds must be positive, angles above 0 and up to 90 degrees",
-                panel.name
-            );
-            return Err(SpecError::new(message).help("a panel over angle may give one speed for all"));
-        }
-        Ok(())
-    }
-}
-
-/// A number that a source states in words.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Stated {
-    /// Normal speed, m/s, or angle from the surface, degrees.
-    pub at: f64,
-    /// "over 0.83": the quantity is above this.
-    pub above: Option<f64>,
-    /// "less than 0.57": it is below this.
-    pub below: Option<f64>,
-    /// Uncertainty stated with it.
-    #[serde(default)]
-    pub sigma: f64,
-    /// Where.
-    pub source: String,
 }
 
 /// A single number that a source prints, recomputed from its own inputs.
@@ -362,6 +275,7 @@ impl Experiment {
             title: file.title,
             source: file.source,
             values_from: file.values_from,
+            points_from: None,
             notes: file.notes,
             panels: file.panels,
             claims: file.claims,
@@ -370,15 +284,26 @@ impl Experiment {
         Ok(experiment)
     }
 
+    /// Where the values come from: the file of points if there is one, else what the experiment's own file says.
+    pub fn values_from(&self) -> &str {
+        self.points_from.as_deref().unwrap_or(&self.values_from)
+    }
+
     /// Checks what serde cannot.
     pub(crate) fn check(&self) -> Result<(), SpecError> {
-        for panel in &self.panels {
-            if !(panel.range[0] < panel.range[1] && panel.range[0] > 0.0) {
-                return Err(SpecError::new(format!(
-                    "panel {}: range [{}, {}]",
-                    panel.name, panel.range[0], panel.range[1]
-                ))
-                .help("two positive numbers, the smaller first"));
+        for (n, panel) in self.panels.iter().enumerate() {
+            let [from, to] = panel.range;
+            let end = if panel.over == Over::Angle { 90.0 } else { f64::MAX };
+            if !(from > 0.0 && from < to && to <= end) {
+                let help = "two positive numbers, the smaller first; angles up to 90 degrees";
+                return Err(SpecError::new(format!("panel {}: range [{from}, {to}]", panel.name)).help(help));
+            }
+            if self.panels[..n].iter().any(|p| p.name == panel.name) {
+                return Err(SpecError::new(format!("two panels named {}", panel.name)).help("give each its own name"));
+            }
+            if panel.over == Over::Angle && panel.speed.is_none() {
+                let message = format!("panel {} runs over angle and has no speed", panel.name);
+                return Err(SpecError::new(message).help("give one, such as speed = \"5 m/s\""));
             }
             panel.measured.iter().try_for_each(|m| m.check(panel))?;
         }

@@ -2,7 +2,7 @@
 //!
 //! An [`experiment`] is a text file: spheres, surface, wall laws, the plots it is shown in, and measured or stated values, each
 //! with where it comes from. [`points`] adds a CSV file of measurements that lies beside it. [`compare`] holds every curve
-//! against every value; [`validate`] does so for all experiments and writes a report. Nothing is fitted here.
+//! against every value; [`validate()`] does so for all experiments and writes a report. Nothing is fitted here.
 //!
 //! SI units; angles in degrees from the surface.
 

@@ -96,6 +96,7 @@ pub fn add(experiment: &mut Experiment, name: &str, text: &str) -> Result<(), La
             });
         }
     }
+    experiment.points_from = Some(source);
     Ok(())
 }
 

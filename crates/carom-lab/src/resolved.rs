@@ -47,11 +47,13 @@ pub struct Forms {
     pub rows: Vec<Row>,
     /// Greatest |algebraic − resolved| without damping (separation-only).
     pub undamped: f64,
-    /// The same with damping, up to `fast` m/s.
+    /// The same with damping, from 0.03 to 0.1 m/s, near capture.
+    pub damped_slow: f64,
+    /// From 0.1 to 25 m/s.
     pub damped: f64,
-    /// m/s.
-    pub fast: f64,
-    /// Greatest |algebraic − reversible| with damping, up to `fast`.
+    /// From 25 to 100 m/s, where the damping's own range ends.
+    pub damped_fast: f64,
+    /// Greatest |algebraic − reversible| with damping, from 0.1 to 25 m/s.
     pub reversible: f64,
 }
 
@@ -91,19 +93,20 @@ impl Laws {
 /// # Errors
 /// Materials that the library lacks.
 pub fn forms(library: &Library) -> Result<Forms, LabError> {
-    const FAST: f64 = 25.0;
     let laws = Laws::new(library)?;
     let rows = (0..=84)
         .map(|n| laws.row(0.03 * (100.0f64 / 0.03).powf(f64::from(n) / 84.0)))
         .collect::<Result<Vec<_>, _>>()?;
-    let worst = |fast: f64, get: fn(&Row) -> f64| {
-        rows.iter().filter(|r| r.speed <= fast).map(|r| get(r).abs()).fold(0.0, f64::max)
+    let worst = |from: f64, to: f64, get: fn(&Row) -> f64| {
+        rows.iter().filter(|r| (from..=to).contains(&r.speed)).map(|r| get(r).abs()).fold(0.0, f64::max)
     };
+    let damped = |from: f64, to: f64| worst(from, to, |r| r.algebraic_damped - r.resolved_damped);
     Ok(Forms {
-        undamped: worst(f64::INFINITY, |r| r.algebraic - r.resolved),
-        damped: worst(FAST, |r| r.algebraic_damped - r.resolved_damped),
-        reversible: worst(FAST, |r| r.algebraic_damped - r.reversible_damped),
-        fast: FAST,
+        undamped: worst(0.0, f64::INFINITY, |r| r.algebraic - r.resolved),
+        damped_slow: damped(0.0, 0.1),
+        damped: damped(0.1, 25.0),
+        damped_fast: damped(25.0, f64::INFINITY),
+        reversible: worst(0.1, 25.0, |r| r.algebraic_damped - r.reversible_damped),
         rows,
     })
 }

@@ -1,4 +1,5 @@
-//! Table 2 of Kim & Dunn (2007): the printed stiffness K and work of adhesion w against what the materials of Table 1 give.
+//! Table 2 of Kim & Dunn (2007): stiffness K and work of adhesion w as printed against what the library's materials give, which
+//! are those of Table 1 for all but quartz.
 
 use crate::error::LabError;
 use carom::SpecError;
@@ -35,7 +36,7 @@ pub struct Row {
     pub author: String,
     /// K, Pa, as in the file (its note says where that is not what is printed).
     pub stiffness: f64,
-    /// K from the materials; null where the paper prints no properties.
+    /// K from the library's materials; null where it lacks one.
     pub stiffness_computed: Option<f64>,
     /// w, J/m².
     pub work_of_adhesion: f64,
@@ -56,7 +57,7 @@ pub fn rows(library: &Library) -> Result<Vec<Row>, LabError> {
         error: SpecError::from(e),
     })?;
     let row = |printed: Printed| {
-        // quartz is in no table of the paper, and so not in the library
+        // quartz is in no table of the paper; the library has a material of that name from elsewhere
         let bodies = library.get(&printed.sphere).ok().zip(library.get(&printed.surface).ok());
         let pair = bodies.map(|(sphere, surface)| Pair::new(sphere, surface, &Overrides::default()));
         Row {

@@ -17,6 +17,9 @@ const THROWN: &str = include_str!("../../../examples/wind-tunnel-upward.toml");
 /// The elastic walls that Fig. 12 compares with: e = 1, tangentially too.
 const ELASTIC: &str = "normal = \"constant\"\nrestitution = 1.0\ntangential_restitution = 1.0\n";
 
+/// Height of the tunnel in both case files, m.
+const HEIGHT: f64 = 0.056;
+
 /// One sphere's way.
 #[derive(Clone, Debug, Serialize)]
 pub struct Way {
@@ -30,6 +33,8 @@ pub struct Way {
     pub diameter: f64,
     /// Impacts before its end, the last included.
     pub impacts: usize,
+    /// How many the paper states, the last included.
+    pub impacts_stated: Option<usize>,
     /// Where along the tunnel it first hits the floor, m.
     pub first_floor_impact: Option<f64>,
     /// How it ends.
@@ -104,6 +109,7 @@ fn track(
             label: if walls.is_empty() { size } else { format!("{size}, {walls}") },
             diameter: end.particle.diameter,
             impacts: mine.len(),
+            impacts_stated: stated(figure, walls, end.particle.diameter),
             first_floor_impact: mine.iter().find(|i| i.normal[1] > 0.5).map(|i| i.position[0]),
             fate: end.fate.name(),
             end: end.position[0],
@@ -114,11 +120,20 @@ fn track(
     Ok(follow.ends.iter().map(way).collect())
 }
 
+/// Impacts that section 7 of the paper states: two bounces and capture, capture at once; a bounce off the upper wall and capture.
+fn stated(figure: &str, walls: &str, diameter: f64) -> Option<usize> {
+    match (figure, walls) {
+        ("11", _) => Some(if diameter > 80e-6 { 3 } else { 1 }),
+        ("12", "EA") => Some(2),
+        _ => None,
+    }
+}
+
 /// The paths of a figure.
 pub fn plot(figure: &str, paths: &[Way]) -> Plot {
-    let (title, height) = match figure {
-        "11" => ("Copper spheres let fall into the tunnel", 0.056),
-        _ => ("A silver-coated glass sphere thrown upward", 0.056),
+    let title = match figure {
+        "11" => "Copper spheres let fall into the tunnel",
+        _ => "A silver-coated glass sphere thrown upward",
     };
     let mine = || paths.iter().filter(|p| p.figure == figure);
     let far = mine().flat_map(|p| p.x.iter().copied()).fold(0.0, f64::max);
@@ -126,5 +141,5 @@ pub fn plot(figure: &str, paths: &[Way]) -> Plot {
     for (n, path) in mine().enumerate() {
         plot = plot.with(Series::line(&path.label, path.x.clone(), path.y.clone()).color(Color::cycle(n)));
     }
-    plot.wall([0.0, 0.0], [far, 0.0]).wall([0.0, height], [far, height]).legend(Legend::Outside)
+    plot.wall([0.0, 0.0], [far, 0.0]).wall([0.0, HEIGHT], [far, HEIGHT]).legend(Legend::Outside)
 }

@@ -64,7 +64,6 @@ pub struct Validation {
     /// What must hold by construction.
     pub identities: Vec<Identity>,
     /// The experiments, as read.
-    #[serde(skip)]
     pub experiments: Vec<Experiment>,
 }
 
@@ -127,42 +126,100 @@ pub fn validate(experiments: Vec<Experiment>, library: &Library) -> Result<Valid
     })
 }
 
+/// A row of the summary.
+#[derive(Clone, Debug)]
+struct Line {
+    figure: String,
+    experiment: String,
+    panel: String,
+    model: String,
+    tier: Tier,
+    values: Option<u64>,
+    deviation: String,
+}
+
+impl Default for Line {
+    fn default() -> Self {
+        let none = String::new;
+        let (figure, experiment, panel, model, deviation) = (none(), none(), none(), none(), none());
+        Self { figure, experiment, panel, model, tier: Tier::Prediction, values: None, deviation }
+    }
+}
+
 impl Validation {
     /// The comparisons of a panel.
     pub fn of<'a>(&'a self, panel: &'a PanelResult) -> impl Iterator<Item = &'a Comparison> {
         self.comparisons.iter().filter(|c| c.experiment == panel.experiment && c.panel == panel.panel)
     }
 
-    /// One row for each model that meets values, and for each panel without any.
+    /// One row for each model that meets values, for each panel without any, and for what is no panel.
     ///
     /// # Errors
     /// None: the columns have one length.
     pub fn summary(&self) -> Result<Table, LabError> {
-        type Line<'a> = (&'a PanelResult, &'a str, Tier, Option<u64>, Option<f64>);
-        let mut lines: Vec<Line<'_>> = Vec::new();
-        for panel in &self.panels {
-            let before = lines.len();
-            lines.extend(
-                self.of(panel)
-                    .map(|c| (panel, c.curve.as_str(), c.tier, Some(c.points.len() as u64), Some(c.greatest))),
-            );
-            if lines.len() == before {
-                let one = panel.curves.first().map_or("", |c| c.label.as_str());
-                lines.push((panel, if panel.curves.len() > 1 { "all" } else { one }, panel.tier, None, None));
-            }
+        let mut lines: Vec<Line> = Vec::new();
+        let (of_paper, beyond): (Vec<_>, Vec<_>) = self.panels.iter().partition(|p| p.figure.is_some());
+        lines.extend(of_paper.into_iter().flat_map(|p| self.lines(p)));
+        lines.extend(self.tunnel.iter().map(|w| Line {
+            figure: w.figure.to_owned(),
+            experiment: "wind tunnel".to_owned(),
+            model: w.label.clone(),
+            tier: if w.figure == "11" { Tier::Stated } else { Tier::Model },
+            deviation: match w.impacts_stated {
+                Some(stated) => format!("{} impacts, stated {stated}", w.impacts),
+                None => format!("{} impacts, {}", w.impacts, w.fate),
+            },
+            ..Line::default()
+        }));
+        lines.extend(beyond.into_iter().flat_map(|p| self.lines(p)));
+        for (model, off) in [("undamped", self.resolved.undamped), ("damped, 0.1 to 25 m/s", self.resolved.damped)] {
+            lines.push(Line {
+                experiment: "algebraic form".to_owned(),
+                panel: "resolved form".to_owned(),
+                model: model.to_owned(),
+                tier: if model == "undamped" { Tier::Analytic } else { Tier::Model },
+                deviation: if off < 1e-4 { format!("{off:.0e}") } else { format!("{off:.4}") },
+                ..Line::default()
+            });
         }
+        let text = |name: &str, get: fn(&Line) -> &str| Column::text(name, lines.iter().map(get));
         Ok(Table::new([
-            Column::text("figure", lines.iter().map(|l| l.0.figure.clone().unwrap_or_default())),
-            Column::text("experiment", lines.iter().map(|l| l.0.experiment.as_str())),
-            Column::text("panel", lines.iter().map(|l| l.0.panel.as_str())),
-            Column::text("model", lines.iter().map(|l| l.1)),
-            Column::text("held against", lines.iter().map(|l| l.2.name())),
-            Column::count("values", lines.iter().map(|l| l.3)),
-            Column::text(
-                "greatest deviation",
-                lines.iter().map(|l| l.4.map(|d| format!("{d:.4}")).unwrap_or_default()),
-            ),
+            text("figure", |l| &l.figure),
+            text("experiment", |l| &l.experiment),
+            text("panel", |l| &l.panel),
+            text("model", |l| &l.model),
+            text("held against", |l| l.tier.name()),
+            Column::text("values", lines.iter().map(|l| l.values.map(|v| v.to_string()).unwrap_or_default())),
+            text("greatest deviation", |l| &l.deviation),
         ])?)
+    }
+
+    fn lines(&self, panel: &PanelResult) -> Vec<Line> {
+        let line = Line {
+            figure: panel.figure.clone().unwrap_or_default(),
+            experiment: panel.experiment.clone(),
+            panel: panel.panel.clone(),
+            tier: panel.tier,
+            ..Line::default()
+        };
+        let met: Vec<Line> = self
+            .of(panel)
+            .map(|c| Line {
+                model: c.curve.clone(),
+                tier: c.tier,
+                values: Some(c.points.len() as u64),
+                deviation: format!("{:.4}", c.greatest),
+                ..line.clone()
+            })
+            .collect();
+        if !met.is_empty() {
+            return met;
+        }
+        let model = match &panel.curves[..] {
+            [one] => one.label.clone(),
+            several => format!("{} curves", several.len()),
+        };
+        vec![Line { model, ..line }]
     }
 
     /// Everything as JSON, SI units; NaN is null.
