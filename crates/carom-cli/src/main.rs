@@ -11,6 +11,7 @@ mod law;
 mod materials;
 mod motion;
 mod output;
+mod removal;
 mod run;
 mod sweep;
 mod text;
