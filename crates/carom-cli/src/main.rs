@@ -12,6 +12,7 @@ mod materials;
 mod merge;
 mod motion;
 mod output;
+mod removal;
 mod report;
 mod run;
 mod sweep;

@@ -156,11 +156,7 @@ impl WallLaw {
     /// A diameter or density out of range.
     pub fn critical_angle(&self, diameter: f64, density: Option<f64>, speed: f64) -> Result<Option<f64>, ImpactError> {
         let size = self.size(diameter, density)?;
-        let friction = match &self.tangential {
-            Tangential::Friction { friction, .. } => *friction,
-            Tangential::MicroSlip(law) => law.friction(),
-            Tangential::Restitution(_) => return Ok(None),
-        };
+        let Some(friction) = self.tangential.friction() else { return Ok(None) };
         if friction <= 0.0 {
             return Ok(Some(std::f64::consts::FRAC_PI_2));
         }

@@ -44,6 +44,7 @@ pub fn normal_laws() -> Vec<String> {
         table("normal = \"constant\"\nrestitution = 0.7"),
         table("normal = \"by-angle\"\nrestitution = \"grant-tabakoff\""),
         table("normal = \"by-angle\"\nrestitution = { angle_deg = [10, 45, 90], value = [0.9, 0.7, 0.6] }"),
+        "sphere = \"stainless-steel\"\nsurface = \"silicon\"\nnormal = \"ea\"\nroughness = \"1 nm\"\nroughness_model = \"fuller-tabor\"\nasperity_radius = \"50 nm\"\n".into(),
         steel("normal = \"resolved\""),
         steel("normal = \"resolved\"\nadhesion = \"reversible\"\nadhesion_damping = 1.3\nhertz_damping = 0.007"),
     ]
