@@ -81,7 +81,7 @@ impl Sink for Collector<'_> {
     }
 
     fn end(&mut self, end: &End) {
-        self.summary.end(end);
+        self.summary.end(end, &self.case.bins);
     }
 
     fn stalled(&mut self) {
@@ -107,7 +107,7 @@ pub(crate) fn track(case: &Case, numbers: Range<u64>, wanted: Wanted) -> Block {
 
 /// A summary of nothing.
 pub(crate) fn empty(case: &Case) -> Summary {
-    Summary::new(&case.title, case.domain.walls().iter().map(|w| w.name.clone()))
+    Summary::new(&case.title, case.domain.walls().iter().map(|w| w.name.clone()), &case.bins)
 }
 
 fn rows<R: Serialize>(rows: impl Iterator<Item = R>) -> Vec<u8> {

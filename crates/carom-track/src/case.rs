@@ -11,6 +11,7 @@ mod wall;
 
 pub use injection::Injected;
 
+use crate::deposition::{Bins, Region};
 use crate::domain::{Analytic, Wall};
 use crate::dynamics::Dynamics;
 use crate::injection::Start;
@@ -19,7 +20,7 @@ use carom::SpecError;
 use carom::material::Library;
 use check::{positive, wrong};
 use std::path::{Path, PathBuf};
-use text::{CaseText, RunText};
+use text::{CaseText, OutputText, RunText, Si};
 
 /// What is wrong in a case file, where, and what would be right.
 pub type CaseError = SpecError;
@@ -45,6 +46,10 @@ pub struct Case {
     pub trajectories: u64,
     /// Whether impacts are recorded.
     pub impacts: bool,
+    /// Whether trajectories and deposits are written as VTK too.
+    pub vtk: bool,
+    /// How deposits are sorted.
+    pub bins: Bins,
     /// A number that tells this case from others, for resuming.
     pub fingerprint: u64,
 }
@@ -89,6 +94,7 @@ impl Case {
         let settings = settings(&read, seed, &behaviors)?;
         injected_in_the_fluid(&walls, &injections, &behaviors)?;
         let output = read.output;
+        let bins = bins(&output)?;
         Ok(Self {
             title: read.title.unwrap_or_default(),
             name: name.to_owned(),
@@ -99,6 +105,8 @@ impl Case {
             settings,
             trajectories: output.trajectories.map_or(TRAJECTORIES, |t| t.value),
             impacts: output.impacts.unwrap_or(true),
+            vtk: output.vtk.unwrap_or(true),
+            bins,
             fingerprint: fingerprint(text),
         })
     }
@@ -148,7 +156,7 @@ fn settings(read: &CaseText, seed: u64, behaviors: &[Behavior]) -> Result<Settin
     let default = RunText::default();
     let run = read.run.as_ref().map_or(&default, |r| &r.value);
     let until = run.until.as_ref().map(|u| positive(u, "until", u.value.0)).transpose()?;
-    let way_out = behaviors.iter().any(|b| !matches!(b, Behavior::Law(_)));
+    let way_out = behaviors.iter().any(|b| matches!(b, Behavior::Trap | Behavior::Escape));
     if until.is_none() && !way_out {
         let error = SpecError::new("nothing ends this run: neither until nor a wall that traps or lets escape");
         return Err(error.help("give until = \"2 s\" in [run]").at(read.run.as_ref().and_then(|r| r.span.clone())));
@@ -164,6 +172,25 @@ fn settings(read: &CaseText, seed: u64, behaviors: &[Behavior]) -> Result<Settin
     };
     let max_steps = run.max_steps.as_ref().map_or(MAX_STEPS, |m| m.value.max(1));
     Ok(Settings { tolerance, until: until.unwrap_or(f64::INFINITY), settle_height, max_steps, seed })
+}
+
+fn bins(output: &OutputText) -> Result<Bins, SpecError> {
+    injection::distinct(output.region.iter().map(|r| &r.value.name), "region")?;
+    let mut sizes = Vec::new();
+    if let Some(at) = &output.size_bins {
+        sizes = at.value.iter().map(|l| l.0).collect();
+        if !sizes.iter().zip(sizes.iter().skip(1)).all(|(a, b)| a < b) || sizes.first().is_some_and(|s| *s <= 0.0) {
+            return Err(
+                wrong(at, "the edges of size bins do not rise").help("give positive diameters, each above the last")
+            );
+        }
+    }
+    let region = |r: &carom::spec::At<text::RegionText>| {
+        let (a, b) = (r.value.room[0].si(), r.value.room[1].si());
+        let name = r.value.name.value.clone();
+        Region { name, min: [0, 1, 2].map(|c| a[c].min(b[c])), max: [0, 1, 2].map(|c| a[c].max(b[c])) }
+    };
+    Ok(Bins { sizes, regions: output.region.iter().map(region).collect() })
 }
 
 /// No sphere may start inside a wall.

@@ -6,6 +6,7 @@
 
 mod block;
 pub mod case;
+pub mod deposition;
 pub mod domain;
 pub mod dynamics;
 pub mod exact_sum;

@@ -7,6 +7,7 @@
 mod files;
 mod merge;
 mod pool;
+mod vtk;
 
 pub use merge::merge;
 
@@ -22,7 +23,7 @@ use std::path::{Path, PathBuf};
 pub struct RunOptions {
     /// Threads; 0 for as many as the machine has.
     pub threads: usize,
-    /// Where to put `summary.json`, `impacts.csv` and `trajectories.csv`; nothing is written without.
+    /// Where to put `summary.json`, `impacts.csv`, `deposition.csv`, `trajectories.csv`, VTK files; nothing is written without.
     pub out: Option<PathBuf>,
     /// Go on where an interrupted run in `out` stopped.
     pub resume: bool,
@@ -154,7 +155,7 @@ pub fn run(case: &Case, options: &RunOptions, progress: &dyn Progress) -> Result
         },
     )?;
     if let Some(output) = output {
-        output.finish()?;
+        output.finish(case)?;
     }
     Ok(summary)
 }

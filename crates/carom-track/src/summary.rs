@@ -1,5 +1,6 @@
 //! What a run came to: counts, and masses summed without rounding.
 
+use crate::deposition::{Bins, Deposition};
 use crate::exact_sum::ExactSum;
 use crate::record::{End, Event, Fate, ImpactRecord};
 use serde::Serialize;
@@ -15,12 +16,12 @@ pub struct Amount {
 }
 
 impl Amount {
-    fn add(&mut self, mass: f64) {
+    pub(crate) fn add(&mut self, mass: f64) {
         self.count += 1;
         self.mass.add(mass);
     }
 
-    fn merge(&mut self, other: &Self) {
+    pub(crate) fn merge(&mut self, other: &Self) {
         self.count += other.count;
         self.mass.merge(&other.mass);
     }
@@ -50,15 +51,18 @@ pub struct Summary {
     pub fates: [Amount; 5],
     /// By wall.
     pub walls: Vec<WallTally>,
+    /// What walls kept, by region and size bin.
+    pub deposition: Deposition,
     /// Particles left where they were because their steps ran out; they count as airborne.
     pub stalled: u64,
 }
 
 impl Summary {
     /// Nothing yet.
-    pub fn new(title: &str, walls: impl Iterator<Item = String>) -> Self {
-        let walls = walls.map(|name| WallTally { name, ..WallTally::default() }).collect();
-        Self { title: title.to_owned(), walls, ..Self::default() }
+    pub fn new(title: &str, walls: impl Iterator<Item = String>, bins: &Bins) -> Self {
+        let walls: Vec<_> = walls.map(|name| WallTally { name, ..WallTally::default() }).collect();
+        let deposition = Deposition::new(bins, walls.len());
+        Self { title: title.to_owned(), walls, deposition, ..Self::default() }
     }
 
     /// How many ended that way.
@@ -82,7 +86,8 @@ impl Summary {
         }
     }
 
-    pub(crate) fn end(&mut self, end: &End) {
+    pub(crate) fn end(&mut self, end: &End, bins: &Bins) {
+        self.deposition.add(bins, end);
         let mass = end.particle.mass();
         self.fates[end.fate as usize].add(mass);
         if let Some(wall) = end.wall.and_then(|w| self.walls.get_mut(w)) {
@@ -103,6 +108,7 @@ impl Summary {
                 a.merge(b);
             }
         }
+        self.deposition.merge(&other.deposition);
         self.stalled += other.stalled;
     }
 

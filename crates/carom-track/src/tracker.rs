@@ -8,6 +8,7 @@
 mod chance;
 mod lane;
 mod meeting;
+mod wall_jet;
 
 use crate::domain::Domain;
 use crate::dynamics::{Bodies, Dynamics};
@@ -111,6 +112,8 @@ pub enum Behavior {
     Trap,
     /// It leaves the domain.
     Escape,
+    /// It leaves along the wall, as a jet's momentum spreads.
+    WallJet,
 }
 
 /// All that stays the same during a run.

@@ -224,6 +224,18 @@ pub(super) struct RunText {
 pub(super) struct OutputText {
     pub trajectories: Option<At<u64>>,
     pub impacts: Option<bool>,
+    pub vtk: Option<bool>,
+    pub size_bins: Option<At<Vec<Length>>>,
+    #[serde(default)]
+    pub region: Vec<At<RegionText>>,
+}
+
+#[derive(Debug, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RegionText {
+    pub name: At<String>,
+    #[serde(rename = "box")]
+    pub room: [[Length; 3]; 2],
 }
 
 /// The numbers in SI units.

@@ -13,7 +13,7 @@ use carom::spec::{At, LawSpec, NormalKind, NormalSpec, TangentialKind};
 use std::collections::BTreeMap;
 
 /// What a wall may be besides a law of the case.
-pub(super) const WORDS: [&str; 3] = ["trap", "escape", "reflect"];
+pub(super) const WORDS: [&str; 4] = ["trap", "escape", "wall-jet", "reflect"];
 
 /// The laws as written, by name.
 pub(super) type Laws = BTreeMap<String, At<LawSpec>>;
@@ -105,6 +105,7 @@ pub(super) fn behavior(
     match name {
         "trap" => Ok(Behavior::Trap),
         "escape" => Ok(Behavior::Escape),
+        "wall-jet" => Ok(Behavior::WallJet),
         "reflect" => reflect(at, library),
         _ => Err(no_such_law(&text.law, laws.keys())),
     }

@@ -6,6 +6,7 @@
 use super::{RunError, Shard};
 use crate::block::{Block, IMPACTS_HEADER, SIZE, TRAJECTORIES_HEADER, empty};
 use crate::case::Case;
+use crate::deposition::Bins;
 use crate::summary::Summary;
 use std::fs::{File, OpenOptions};
 use std::io::{Seek, SeekFrom, Write};
@@ -16,6 +17,7 @@ pub(super) const CHECKPOINT: &str = "checkpoint.json";
 pub(super) const SUMMARY: &str = "summary.json";
 pub(super) const IMPACTS: &str = "impacts.csv";
 pub(super) const TRAJECTORIES: &str = "trajectories.csv";
+pub(super) const DEPOSITION: &str = "deposition.csv";
 
 /// How far a run is.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -34,6 +36,8 @@ pub(super) struct State {
     /// Whole bytes of each table.
     pub impacts: u64,
     pub trajectories: u64,
+    pub bins: Bins,
+    pub vtk: bool,
     pub summary: Summary,
 }
 
@@ -48,6 +52,8 @@ impl State {
             blocks,
             impacts: 0,
             trajectories: 0,
+            bins: case.bins.clone(),
+            vtk: case.vtk,
             summary: empty(case),
         }
     }
@@ -66,11 +72,7 @@ impl State {
     }
 
     fn write(&self, folder: &Path) -> Result<(), RunError> {
-        let path = folder.join(CHECKPOINT);
-        let fresh = folder.join("checkpoint.json.new");
-        let text = serde_json::to_string(self).unwrap_or_default();
-        std::fs::write(&fresh, text).map_err(RunError::io(&fresh))?;
-        std::fs::rename(&fresh, &path).map_err(RunError::io(&path))
+        replace(folder, CHECKPOINT, &serde_json::to_string(self).unwrap_or_default())
     }
 }
 
@@ -124,15 +126,26 @@ impl Output {
     }
 
     /// The run is complete.
-    pub fn finish(self) -> Result<(), RunError> {
-        write_summary(&self.folder, &self.state.summary)
+    pub fn finish(self, case: &Case) -> Result<(), RunError> {
+        if case.vtk {
+            super::vtk::write(&self.folder)?;
+        }
+        write_results(&self.folder, &self.state.summary, &self.state.bins)
     }
 }
 
-pub(super) fn write_summary(folder: &Path, summary: &Summary) -> Result<(), RunError> {
-    let path = folder.join(SUMMARY);
-    let fresh = folder.join("summary.json.new");
-    std::fs::write(&fresh, summary.to_json()).map_err(RunError::io(&fresh))?;
+/// `deposition.csv`, and last of all `summary.json`: where it is, the run is complete.
+pub(super) fn write_results(folder: &Path, summary: &Summary, bins: &Bins) -> Result<(), RunError> {
+    let walls: Vec<String> = summary.walls.iter().map(|w| w.name.clone()).collect();
+    replace(folder, DEPOSITION, &summary.deposition.to_csv(bins, &walls))?;
+    replace(folder, SUMMARY, &summary.to_json())
+}
+
+/// Puts a whole file in place in one stroke.
+fn replace(folder: &Path, name: &str, text: &str) -> Result<(), RunError> {
+    let path = folder.join(name);
+    let fresh = folder.join(format!("{name}.new"));
+    std::fs::write(&fresh, text).map_err(RunError::io(&fresh))?;
     std::fs::rename(&fresh, &path).map_err(RunError::io(&path))
 }
 

@@ -1,7 +1,7 @@
 //! Shards put together again.
 
 use super::RunError;
-use super::files::{IMPACTS, State, TRAJECTORIES, write_summary};
+use super::files::{IMPACTS, State, TRAJECTORIES, write_results};
 use crate::block::{IMPACTS_HEADER, TRAJECTORIES_HEADER};
 use crate::summary::Summary;
 use std::fs::File;
@@ -48,9 +48,12 @@ pub fn merge(shards: &[PathBuf], out: &Path) -> Result<Summary, RunError> {
     std::fs::create_dir_all(out).map_err(RunError::io(out))?;
     join(&parts, out, IMPACTS, IMPACTS_HEADER, |s| s.impacts)?;
     join(&parts, out, TRAJECTORIES, TRAJECTORIES_HEADER, |s| s.trajectories)?;
-    let mut summary = first.summary;
+    let mut summary = first.summary.clone();
     parts.iter().skip(1).for_each(|(s, _)| summary.merge(&s.summary));
-    write_summary(out, &summary)?;
+    if first.vtk {
+        super::vtk::write(out)?;
+    }
+    write_results(out, &summary, &first.bins)?;
     Ok(summary)
 }
 

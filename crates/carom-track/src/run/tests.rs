@@ -44,14 +44,21 @@ position = ["0 m", "10 mm", "0 m"]
 velocity = ["1 m/s", "1 m/s", "0 m/s"]
 [run]
 until = "0.1 s"
+[output]
+size_bins = ["30 um", "60 um"]
+[[output.region]]
+name = "first half"
+box = [["0 m", "-1 m", "-1 m"], ["100 mm", "1 m", "1 m"]]
 "#;
 
 fn case() -> Case {
     Case::from_toml(CASE, Path::new("case.toml"), &Library::builtin()).unwrap()
 }
 
-fn files(folder: &Path) -> [Vec<u8>; 3] {
-    [files::SUMMARY, files::IMPACTS, files::TRAJECTORIES].map(|n| fs::read(folder.join(n)).unwrap())
+fn files(folder: &Path) -> [Vec<u8>; 6] {
+    let names =
+        [files::SUMMARY, files::IMPACTS, files::TRAJECTORIES, files::DEPOSITION, "trajectories.vtp", "deposit.vtp"];
+    names.map(|n| fs::read(folder.join(n)).unwrap())
 }
 
 fn options(out: &Path, threads: usize) -> RunOptions {
@@ -105,6 +112,9 @@ fn nothing_is_lost_and_nothing_invented() {
         .map(|f| json["fates"][f].as_u64().unwrap())
         .sum();
     assert_eq!(named, 5000);
+    let kept: u64 = s.deposition.kept.iter().flatten().flatten().map(|a| a.count).sum();
+    assert_eq!(kept, s.count(crate::record::Fate::Captured) + s.count(crate::record::Fate::Trapped));
+    assert_eq!(s.deposition.injected.iter().map(|a| a.count).sum::<u64>(), 5000);
     let mut rows = csv::Reader::from_path(folder.path().join("impacts.csv")).unwrap();
     let mut last = (0u64, 0.0f64);
     let mut impacts = 0;

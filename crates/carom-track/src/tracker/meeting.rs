@@ -3,9 +3,11 @@
 #![allow(clippy::needless_range_loop, reason = "one index runs through several arrays of lanes or components")]
 
 use super::lane::{Lane, points, trace};
+use super::wall_jet::leave;
 use super::{Behavior, Crew, Particle, Tracker, finish, motion_of};
 use crate::domain::{Domain, Hit};
 use crate::geometry::evaluate;
+use crate::random::{Purpose, Stream};
 use crate::record::{Event, Fate, ImpactRecord, Sink};
 use crate::vector::{Vec3, add, cross, dot, norm, scale, sub};
 use carom::{Energy, Fate as LawFate, Impact, WallLaw};
@@ -70,6 +72,15 @@ impl<D: Domain> Tracker<'_, D> {
         let law = match behavior {
             Behavior::Trap => return stay(Event::Trap),
             Behavior::Escape => return After { velocity: v, spin, restitution: f64::NAN, ..stay(Event::Escape) },
+            Behavior::WallJet => {
+                let event = u32::try_from(lane.impacts).unwrap_or(u32::MAX);
+                let mut draws = Stream::new(self.settings.seed, lane.particle.number, Purpose::Wall, event);
+                let Some(out) = leave(sub(v, hit.wall_velocity), n, draws.uniforms()) else {
+                    return stay(Event::Settle);
+                };
+                let velocity = add(out, hit.wall_velocity);
+                return After { velocity, spin, restitution: f64::NAN, ..stay(Event::Rebound) };
+            }
             Behavior::Law(laws) => laws.get(lane.particle.injection).or(laws.first()),
         };
         let Some(law) = law else { return stay(Event::Trap) };

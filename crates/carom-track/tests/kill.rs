@@ -1,0 +1,90 @@
+//! A run that is killed (SIGKILL) again and again and resumed ends with the bits of one that was not.
+
+use carom::material::Library;
+use carom_track::{Case, RunOptions, Silent, run};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+const CHILD: &str = "CAROM_TRACK_CHILD";
+
+const CASE: &str = r#"
+seed = 9
+[flow]
+kind = "uniform"
+velocity = ["1 m/s", "0 m/s", "0 m/s"]
+[forces]
+gravity = ["0 m/s2", "-9.81 m/s2", "0 m/s2"]
+[[wall]]
+name = "room"
+box = [["0 m", "0 m", "0 m"], ["50 mm", "20 mm", "20 mm"]]
+law = "plate"
+[law.plate]
+surface = "silicon"
+normal = "ea"
+friction = 0.2
+[[injection]]
+name = "cloud"
+material = "stainless-steel"
+diameter = { lognormal = { median = "40 um", gsd = 1.4 } }
+count = 12000
+position = { box = [["5 mm", "5 mm", "5 mm"], ["45 mm", "15 mm", "15 mm"]] }
+velocity = ["1 m/s", "-1 m/s", "0.5 m/s"]
+[run]
+until = "50 ms"
+"#;
+
+fn case() -> Case {
+    Case::from_toml(CASE, Path::new("kill.toml"), &Library::builtin()).expect("a good case")
+}
+
+fn options(out: PathBuf, resume: bool) -> RunOptions {
+    RunOptions { threads: 2, out: Some(out), resume, shard: None }
+}
+
+/// The first block not yet written, from the checkpoint of a run under way; 0 where there is none.
+fn next_block(folder: &Path) -> u64 {
+    let text = std::fs::read_to_string(folder.join("checkpoint.json")).unwrap_or_default();
+    serde_json::from_str::<serde_json::Value>(&text).ok().and_then(|v| v["next"].as_u64()).unwrap_or(0)
+}
+
+/// Not a test of its own: what the killed process runs.
+#[test]
+fn child() {
+    if let Some(folder) = std::env::var_os(CHILD) {
+        run(&case(), &options(folder.into(), true), &Silent).expect("the run");
+    }
+}
+
+#[test]
+fn killed_and_resumed_is_as_never_killed() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (whole, killed) = (folder.path().join("whole"), folder.path().join("killed"));
+    run(&case(), &options(whole.clone(), false), &Silent).expect("the run");
+    let this = std::env::current_exe().expect("the test's own path");
+    let start = || {
+        Command::new(&this)
+            .args(["child", "--exact"])
+            .env(CHILD, &killed)
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("a child")
+    };
+    let mut kills = 0;
+    for wanted in [1, 3, 4, 7, 9] {
+        let mut child = start();
+        // as soon as that many blocks are on disk, at whatever point the process then is
+        while next_block(&killed) < wanted && child.try_wait().expect("a state").is_none() {
+            std::thread::yield_now();
+        }
+        kills += u32::from(child.try_wait().expect("a state").is_none());
+        child.kill().expect("a kill");
+        child.wait().expect("an end");
+    }
+    assert!(kills >= 3, "only {kills} kills came in time");
+    assert!(start().wait().expect("an end").success());
+    for name in ["summary.json", "impacts.csv", "trajectories.csv", "deposition.csv", "deposit.vtp"] {
+        let read = |folder: &Path| std::fs::read(folder.join(name)).expect(name);
+        assert!(read(&whole) == read(&killed), "{name} differs");
+    }
+}
