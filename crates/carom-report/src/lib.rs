@@ -15,6 +15,7 @@ mod error;
 mod file;
 pub mod html;
 mod number;
+pub use number::significant;
 pub mod plot;
 pub mod table;
 

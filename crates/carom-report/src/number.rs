@@ -1,7 +1,7 @@
 //! Numbers as a person reads them.
 
 /// `value` to at most `digits` significant digits without trailing zeros; an exponent only where plain digits would be long.
-pub(crate) fn significant(value: f64, digits: usize) -> String {
+pub fn significant(value: f64, digits: usize) -> String {
     if value == 0.0 {
         return "0".to_owned();
     }

@@ -16,8 +16,8 @@ use crate::domain::{Analytic, Wall};
 use crate::dynamics::Dynamics;
 use crate::injection::Start;
 use crate::tracker::{Behavior, Particle, Settings, SettleHeight, Tracker};
-use carom::SpecError;
 use carom::material::Library;
+use carom::{Impact, SpecError};
 use check::{positive, wrong};
 use std::path::{Path, PathBuf};
 use text::{CaseText, OutputText, RunText, Si};
@@ -82,7 +82,7 @@ impl Case {
         }
         injection::distinct(read.injection.iter().filter_map(|i| i.value.name.as_ref()), "injection")?;
         injection::distinct(read.wall.iter().map(|w| &w.value.name), "wall")?;
-        let walls = read.wall.iter().map(wall::read).collect::<Result<Vec<_>, _>>()?;
+        let walls = read.wall.iter().map(|w| wall::read(w, folder)).collect::<Result<Vec<_>, _>>()?;
         let largest = injections.iter().map(|i| i.largest).fold(0.0, f64::max);
         wall::contradictions(&read.wall, &walls, largest)?;
         let behaviors = read
@@ -93,6 +93,7 @@ impl Case {
         unused_laws(&read, library)?;
         let settings = settings(&read, seed, &behaviors)?;
         injected_in_the_fluid(&walls, &injections, &behaviors)?;
+        sampled_starts(&walls, &injections, &behaviors)?;
         let output = read.output;
         let bins = bins(&output)?;
         Ok(Self {
@@ -172,6 +173,36 @@ fn settings(read: &CaseText, seed: u64, behaviors: &[Behavior]) -> Result<Settin
     };
     let max_steps = run.max_steps.as_ref().map_or(MAX_STEPS, |m| m.value.max(1));
     Ok(Settings { tolerance, until: until.unwrap_or(f64::INFINITY), settle_height, max_steps, seed })
+}
+
+/// The first spheres of each injection, as they will be: in the fluid, and fit for the laws of the walls.
+fn sampled_starts(walls: &[Wall], injections: &[Injected], behaviors: &[Behavior]) -> Result<(), SpecError> {
+    const SAMPLE: u64 = 1000;
+    for (index, injected) in injections.iter().enumerate() {
+        for i in 0..injected.injection.count().min(SAMPLE) {
+            let start = injected.injection.particle(i, |_| [0.0; 3]);
+            for (wall, behavior) in walls.iter().zip(behaviors) {
+                let reach = 0.5 * start.diameter;
+                if wall.shape.distance(start.position) - wall.clearance(reach) < -1e-9 * reach {
+                    let (name, wall, x, d) = (&injected.name, &wall.name, start.position, start.diameter);
+                    return Err(SpecError::new(format!(
+                        "{name} starts inside wall '{wall}': a sphere of {d} m at {x:?} m"
+                    ))
+                    .help("a normal points out of the wall into the fluid; a sphere needs one radius of room")
+                    .at(injected.place.clone()));
+                }
+                let Behavior::Law(laws) = behavior else { continue };
+                let Some(law) = laws.get(index).or(laws.first()) else { continue };
+                let density = Some(start.density);
+                let trial = Impact { density, ..Impact::new(start.diameter, [0.0, -1.0, 0.0], [0.0, 1.0, 0.0]) };
+                if let Err(e) = law.impact(&trial) {
+                    let message = format!("{} does not fit the law of wall '{}': {e}", injected.name, wall.name);
+                    return Err(SpecError::new(message).at(injected.place.clone()));
+                }
+            }
+        }
+    }
+    Ok(())
 }
 
 fn bins(output: &OutputText) -> Result<Bins, SpecError> {

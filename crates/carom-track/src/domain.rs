@@ -111,7 +111,7 @@ impl Analytic {
             match &wall.shape {
                 Shape::Plane(p) => planes.push((*p, share)),
                 Shape::Room(r) => rooms.push((*r, share)),
-                Shape::Cylinder(_) => only_flat = false,
+                Shape::Cylinder(_) | Shape::Mesh(_) => only_flat = false,
             }
         }
         Self { flow, walls, planes, rooms, only_flat }

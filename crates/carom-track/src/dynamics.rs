@@ -100,11 +100,6 @@ impl Dynamics {
         self.forces.slip.factor(sphere.diameter, self.fluid.mean_free_path)
     }
 
-    /// A first trial step, s: a third of the time in which drag acts, or a second without drag.
-    pub fn first_step(&self, drag_rate: f64) -> f64 {
-        if drag_rate > 0.0 { 0.3 / drag_rate } else { 1.0 }
-    }
-
     /// Puts a sphere into a lane.
     #[inline(always)]
     pub fn body<const W: usize>(&self, l: usize, sphere: Sphere, bodies: &mut Bodies<W>) {

@@ -252,11 +252,26 @@ impl<D: Domain> Tracker<'_, D> {
             finish(crew, l, Fate::Airborne, None, sink);
             return;
         }
-        crew.lanes[l].step = self.dynamics.first_step(crew.bodies.drag_rate[l]);
+        self.refresh(crew, l);
+        crew.lanes[l].step = self.first_step(crew, l);
         if self.has_chance() {
             self.renew(crew, l);
+            self.refresh(crew, l);
         }
-        self.refresh(crew, l);
+    }
+
+    /// A first trial step, s: what the tolerance is likely to allow where forces change over the time in which they
+    /// change the speed.
+    #[inline(always)]
+    fn first_step<const W: usize>(&self, crew: &Crew<W>, l: usize) -> f64 {
+        let (mut speed, mut change) = (0.0f64, 0.0f64);
+        for c in 0..3 {
+            speed = speed.max(crew.motion.v[c][l].abs());
+            change = change.max(crew.rates.a[c][l].abs());
+        }
+        let share = (PER_STEP * self.settings.tolerance * 1e3).sqrt().sqrt();
+        let time = if speed > 0.0 && change > 0.0 { speed / change } else { 1.0 / crew.bodies.drag_rate[l] };
+        if time.is_finite() { share * time } else { 1.0 }
     }
 
     /// Rates of one lane after its motion was changed.

@@ -60,8 +60,17 @@ impl SpecError {
 
 impl From<toml::de::Error> for SpecError {
     fn from(e: toml::de::Error) -> Self {
-        Self { message: e.message().trim().replace('\n', ", "), span: e.span(), help: None }
+        let message = e.message().trim().replace('\n', ", ");
+        Self { span: e.span(), ..unknown_key(&message).unwrap_or_else(|| Self::new(message)) }
     }
+}
+
+/// serde's "unknown field `a`, expected one of `b`, `c`", said as everything else here is.
+fn unknown_key(message: &str) -> Option<SpecError> {
+    let (wrong, expected) = message.strip_prefix("unknown field `")?.split_once('`')?;
+    let known: Vec<&str> = expected.split('`').skip(1).step_by(2).collect();
+    let near = did_you_mean(wrong, known.iter().copied()).map_or(String::new(), |n| format!("{n} "));
+    Some(SpecError::new(format!("unknown key '{wrong}'")).help(format!("{near}known are {}", known.join(", "))))
 }
 
 /// The candidate nearest to what was written, if one is near: "did you mean ...?".
@@ -85,6 +94,14 @@ mod tests {
         assert_eq!(did_you_mean("coper", names), Some("did you mean copper?".into()));
         assert_eq!(did_you_mean("Coppre", names), Some("did you mean copper?".into()));
         assert_eq!(did_you_mean("unobtainium", names), None);
+    }
+
+    #[test]
+    fn unknown_keys_have_neighbours() {
+        let text = "normal = \"ea\"\nfrictoin = 0.2\n";
+        let error = crate::spec::parse_law(text).expect_err("a misspelt key");
+        assert_eq!(error.message, "unknown key 'frictoin'");
+        assert!(error.help.is_some_and(|h| h.starts_with("did you mean friction? known are sphere,")));
     }
 
     #[test]

@@ -124,8 +124,8 @@ pub enum ImpactError {
     /// The density is not positive, or not within a factor of 1000 of the law's sphere.
     #[error("the density must be positive and within a factor of 1000 of the law's sphere")]
     Density,
-    /// A velocity, spin or normal is NaN, infinite or beyond 1e9 m/s.
-    #[error("velocities must be finite and below 1e9 m/s, spins finite, the normal finite and not zero")]
+    /// A velocity, spin or normal is NaN or infinite, or the motion is beyond about 1e9 m/s.
+    #[error("velocities and spins must be finite and below 1e9 m/s at the surface, the normal finite and not zero")]
     NotFinite,
     /// The concave surface is not wider than the sphere.
     #[error("the surface is concave and its radius of curvature must exceed the sphere's radius")]

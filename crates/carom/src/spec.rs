@@ -26,7 +26,7 @@ mod values;
 
 pub use curve::CurveSpec;
 pub use normal::{NormalKind, NormalSpec};
-pub use values::At;
+pub use values::{At, CurvatureRadius};
 
 use crate::error::{SpecError, did_you_mean};
 use crate::material::MaterialRef;

@@ -184,13 +184,14 @@ impl WallLaw {
         let u = impact.wall_velocity;
         let relative = [impact.velocity[0] - u[0], impact.velocity[1] - u[1], impact.velocity[2] - u[2]];
         let v_n = -dot(&relative, &normal);
-        checks::approach(v_n, &relative, &impact.spin)?;
         let tangent = add_scaled(&relative, v_n, &normal);
         let tangent2 = dot(&tangent, &tangent);
         let spin_speed2 = dot(&impact.spin, &impact.spin);
         // twice the energy per mass
         let rotational = 0.4 * (size.radius * size.radius) * spin_speed2;
-        let share = 1.0 / v_n.mul_add(v_n, tangent2 + rotational);
+        let incident = v_n.mul_add(v_n, tangent2 + rotational);
+        checks::approach(v_n, incident)?;
+        let share = 1.0 / incident;
         let response = self.normal.respond(v_n, tangent2, &size);
         let validity = self.judge(v_n, &size, &response);
         let energy = normal_energy(&response, v_n * v_n * share);

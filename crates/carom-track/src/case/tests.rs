@@ -113,6 +113,10 @@ fn injections_inside_a_wall_are_refused() {
     refused(&at("25 mm"), &at("31 mm"), &["inside wall 'ceiling'"]);
     let text = "position = { box = [[\"0 m\", \"1 mm\", \"0 m\"], [\"2 m\", \"2 mm\", \"0 m\"]] }";
     refused(&at("25 mm"), text, &["beyond wall 'outlet'"]);
+    let rod = "law = \"plate\"\n[[wall]]\nname = \"rod\"\ncylinder = { point = [0.5, 0.012, 0], axis = [0, 0, 1], radius = 0.002, fluid = \"outside\" }\nlaw = \"trap\"";
+    let around = "position = { box = [[\"0.4 m\", \"5 mm\", \"0 m\"], [\"0.6 m\", \"20 mm\", \"0 m\"]] }\ncount = 5000";
+    let text = GOOD.replacen("law = \"plate\"", rod, 1).replace(&at("25 mm"), around).replacen("count = 10\n", "", 1);
+    assert!(read(&text).unwrap_err().to_string().contains("inside wall 'rod'"));
     // touching is not inside
     assert!(read(&GOOD.replace("25 mm\"", "45 um\"")).is_ok());
 }
@@ -150,6 +154,12 @@ fn a_law_for_another_sphere_is_refused_and_one_for_none_takes_the_injections() {
     let error = read(&silver).unwrap_err();
     assert!(error.to_string().contains("law 'plate' is for spheres of copper"), "{error}");
     assert!(read(&silver.replacen("sphere = \"copper\"\n", "", 1)).is_ok());
+}
+
+#[test]
+fn spheres_a_law_cannot_take_are_refused() {
+    let error = read(&GOOD.replace("material = \"copper\"", "density = \"1 kg/m3\"")).unwrap_err();
+    assert!(error.to_string().contains("does not fit the law of wall 'floor'"), "{error}");
 }
 
 #[test]

@@ -91,6 +91,8 @@ pub(super) struct WallText {
     pub cylinder: Option<At<CylinderText>>,
     #[serde(rename = "box")]
     pub room: Option<At<[[Length; 3]; 2]>>,
+    pub block: Option<At<[[Length; 3]; 2]>>,
+    pub stl: Option<At<StlText>>,
     pub law: At<String>,
     pub restitution: Option<At<CurveSpec>>,
     pub tangential_restitution: Option<At<CurveSpec>>,
@@ -112,6 +114,13 @@ pub(super) struct CylinderText {
     pub axis: At<[f64; 3]>,
     pub radius: At<Length>,
     pub fluid: Option<At<String>>,
+}
+
+#[derive(Debug, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct StlText {
+    pub file: At<String>,
+    pub unit: Option<At<Length>>,
 }
 
 #[derive(Debug, serde::Deserialize)]

@@ -2,15 +2,16 @@
 
 use super::check::{needed, positive, word, wrong};
 use super::injection::{Injected, no_such_law};
-use super::text::{Si, WallText};
+use super::text::{Si, StlText, WallText};
 use crate::domain::{ContactAt, Wall};
-use crate::geometry::{Cylinder, Plane, Room, Shape};
+use crate::geometry::{Cylinder, Mesh, Plane, Room, Shape};
 use crate::tracker::Behavior;
 use crate::vector::{dot, norm, scale, sub, unit};
 use carom::SpecError;
 use carom::material::{Library, MaterialRef};
 use carom::spec::{At, LawSpec, NormalKind, NormalSpec, TangentialKind};
 use std::collections::BTreeMap;
+use std::path::Path;
 
 /// What a wall may be besides a law of the case.
 pub(super) const WORDS: [&str; 4] = ["trap", "escape", "wall-jet", "reflect"];
@@ -19,50 +20,85 @@ pub(super) const WORDS: [&str; 4] = ["trap", "escape", "wall-jet", "reflect"];
 pub(super) type Laws = BTreeMap<String, At<LawSpec>>;
 
 /// The geometry of a wall.
-pub(super) fn read(at: &At<WallText>) -> Result<Wall, SpecError> {
+pub(super) fn read(at: &At<WallText>, folder: &Path) -> Result<Wall, SpecError> {
     let text = &at.value;
-    let shape = match (&text.plane, &text.cylinder, &text.room) {
-        (Some(p), None, None) => {
-            Shape::Plane(Plane { point: p.value.point.si(), normal: direction(&p.value.normal, "normal")? })
-        }
-        (None, Some(c), None) => {
-            let c = &c.value;
-            let sides = [("inside", true), ("outside", false)];
-            Shape::Cylinder(Cylinder {
-                point: c.point.si(),
-                axis: direction(&c.axis, "axis")?,
-                radius: positive(&c.radius, "radius", c.radius.value.0)?,
-                inside: c.fluid.as_ref().map_or(Ok(true), |f| word(f, "side of the fluid", &sides))?,
-            })
-        }
-        (None, None, Some(room)) => {
-            let (a, b) = (room.value[0].si(), room.value[1].si());
-            if let Some(i) = (0..3).find(|i| a[*i] >= b[*i]) {
-                let message = format!("the box has no extent along {}: {} m to {} m", ["x", "y", "z"][i], a[i], b[i]);
-                return Err(wrong(room, message).help("give the lower corner first"));
-            }
-            Shape::Room(Room { min: a, max: b })
-        }
-        (None, None, None) => {
-            return Err(
-                wrong(at, format!("wall '{}' has no shape", text.name.value)).help("give plane, cylinder or box")
-            );
-        }
-        _ => {
-            return Err(wrong(at, format!("wall '{}' has more than one shape", text.name.value))
-                .help("keep one of plane, cylinder and box"));
-        }
-    };
+    let shape = shape(at, folder)?;
     let contacts = [("surface", ContactAt::Surface), ("center", ContactAt::Center)];
     let contact_at = text.contact_at.as_ref().map_or(Ok(ContactAt::Surface), |c| word(c, "contact_at", &contacts))?;
     let velocity = velocity(text, &shape)?;
     Ok(Wall { name: text.name.value.clone(), shape, contact_at, velocity })
 }
 
+fn shape(at: &At<WallText>, folder: &Path) -> Result<Shape, SpecError> {
+    let text = &at.value;
+    let name = &text.name.value;
+    let mut shapes = Vec::new();
+    if let Some(p) = &text.plane {
+        shapes.push(Shape::Plane(Plane { point: p.value.point.si(), normal: direction(&p.value.normal, "normal")? }));
+    }
+    if let Some(c) = &text.cylinder {
+        let c = &c.value;
+        shapes.push(Shape::Cylinder(Cylinder {
+            point: c.point.si(),
+            axis: direction(&c.axis, "axis")?,
+            radius: positive(&c.radius, "radius", c.radius.value.0)?,
+            inside: c
+                .fluid
+                .as_ref()
+                .map_or(Ok(true), |f| word(f, "side of the fluid", &[("inside", true), ("outside", false)]))?,
+        }));
+    }
+    if let Some(room) = &text.room {
+        let (min, max) = corners(room)?;
+        shapes.push(Shape::Room(Room { min, max }));
+    }
+    if let Some(block) = &text.block {
+        let (min, max) = corners(block)?;
+        shapes.extend(Mesh::block(min, max).map(Shape::Mesh));
+    }
+    if let Some(stl) = &text.stl {
+        shapes.push(Shape::Mesh(mesh(stl, folder)?));
+    }
+    match (shapes.pop(), shapes.is_empty()) {
+        (Some(shape), true) => Ok(shape),
+        (None, _) => {
+            Err(wrong(at, format!("wall '{name}' has no shape")).help("give plane, cylinder, box, block or stl"))
+        }
+        _ => Err(wrong(at, format!("wall '{name}' has more than one shape"))
+            .help("keep one of plane, cylinder, box, block and stl")),
+    }
+}
+
+fn corners(at: &At<[[carom::units::Length; 3]; 2]>) -> Result<([f64; 3], [f64; 3]), SpecError> {
+    let (a, b) = (at.value[0].si(), at.value[1].si());
+    match (0..3).find(|i| a[*i] >= b[*i]) {
+        None => Ok((a, b)),
+        Some(i) => {
+            let message = format!("the box has no extent along {}: {} m to {} m", ["x", "y", "z"][i], a[i], b[i]);
+            Err(wrong(at, message).help("give the lower corner first"))
+        }
+    }
+}
+
 fn direction(at: &At<[f64; 3]>, key: &str) -> Result<[f64; 3], SpecError> {
     unit(at.value).ok_or_else(|| {
         wrong(at, format!("{key} has no direction: {:?}", at.value)).help("give a finite vector that is not zero")
     })
+}
+
+/// Triangles from an STL file, text or binary; its numbers are in metres unless a unit is given.
+fn mesh(at: &At<StlText>, folder: &Path) -> Result<Mesh, SpecError> {
+    let file = &at.value.file;
+    let unit = at.value.unit.as_ref().map_or(Ok(1.0), |u| positive(u, "unit", u.value.0))?;
+    let failed = |e: std::io::Error| wrong(file, format!("{}: {e}", file.value));
+    let mut open = std::fs::File::open(folder.join(&file.value)).map_err(failed)?;
+    let mut triangles = Vec::new();
+    for triangle in stl_io::create_stl_reader(&mut open).map_err(failed)? {
+        let corner = |v: &stl_io::Vertex| [0, 1, 2].map(|c| f64::from(v.0[c]) * unit);
+        let [a, b, c] = &triangle.map_err(failed)?.vertices;
+        triangles.push([corner(a), corner(b), corner(c)]);
+    }
+    Mesh::new(triangles).ok_or_else(|| wrong(file, format!("{} has no triangle with an area", file.value)))
 }
 
 /// A wall may slide along itself, not leave its place.
@@ -175,7 +211,7 @@ pub(super) fn contradictions(texts: &[At<WallText>], walls: &[Wall], largest: f6
     let planes = |w: &Wall| match &w.shape {
         Shape::Plane(p) => vec![*p],
         Shape::Room(room) => room.faces().to_vec(),
-        Shape::Cylinder(_) => Vec::new(),
+        Shape::Cylinder(_) | Shape::Mesh(_) => Vec::new(),
     };
     for (i, (a, at)) in walls.iter().zip(texts).enumerate() {
         for b in walls.iter().take(i + 1) {

@@ -24,6 +24,21 @@ pub fn first_contact<const N: usize>(
     leaving.first_descent(accept)
 }
 
+/// [`first_contact`] of a surface that ends somewhere: a sphere deep within its clearance is beside it, not in contact, and
+/// meets it when it comes from outside.
+pub fn bounded_contact<const N: usize>(
+    start: f64,
+    change: &Bernstein<N>,
+    slack: f64,
+    accept: impl FnMut(f64) -> bool,
+) -> Option<f64> {
+    if start < -slack {
+        change.scaled(1.0, start).first_descent(accept)
+    } else {
+        first_contact(start, change, slack, accept)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

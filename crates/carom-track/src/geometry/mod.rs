@@ -7,12 +7,14 @@
 pub mod bernstein;
 mod contact;
 mod cylinder;
+mod mesh;
 mod path;
 mod plane;
 mod room;
 
 pub use bernstein::Bernstein;
 pub use cylinder::Cylinder;
+pub use mesh::{Mesh, Triangle};
 pub use path::{Path, evaluate};
 pub use plane::Plane;
 pub use room::Room;
@@ -39,6 +41,8 @@ pub enum Shape {
     Cylinder(Cylinder),
     /// The inside of a box.
     Room(Room),
+    /// A triangulated surface.
+    Mesh(Mesh),
 }
 
 impl Shape {
@@ -48,6 +52,7 @@ impl Shape {
             Self::Plane(p) => p.distance(x),
             Self::Cylinder(c) => c.distance(x),
             Self::Room(r) => r.distance(x),
+            Self::Mesh(m) => m.distance(x),
         }
     }
 
@@ -57,6 +62,7 @@ impl Shape {
             Self::Plane(p) => p.meet(path, clearance, slack),
             Self::Cylinder(c) => c.meet(path, clearance, slack),
             Self::Room(r) => r.meet(path, clearance, slack),
+            Self::Mesh(m) => m.meet(path, clearance, slack),
         }
     }
 }

@@ -188,3 +188,66 @@ fn shards_are_read_with_care() {
     let parts: Vec<_> = (1..=3).map(|index| Shard { index, of: 3 }.blocks(10)).collect();
     assert_eq!(parts, [0..3, 3..6, 6..10]);
 }
+
+/// A box as an STL text in millimetres.
+fn stl_box(size: [f64; 3]) -> String {
+    let v = |i: usize| [0, 1, 2].map(|c| if i >> c & 1 == 0 { 0.0 } else { size[c] });
+    let quads = [[0, 1, 3, 2], [4, 5, 7, 6], [0, 1, 5, 4], [2, 3, 7, 6], [0, 2, 6, 4], [1, 3, 7, 5]];
+    let mut text = String::from("solid box\n");
+    for q in quads {
+        for t in [[q[0], q[1], q[2]], [q[0], q[2], q[3]]] {
+            text += "facet normal 0 0 0\nouter loop\n";
+            t.map(v).iter().for_each(|[x, y, z]| text += &format!("vertex {x} {y} {z}\n"));
+            text += "endloop\nendfacet\n";
+        }
+    }
+    text + "endsolid box\n"
+}
+
+#[test]
+fn a_box_from_stl_is_the_box() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("box.stl"), stl_box([50.0, 20.0, 30.0])).unwrap();
+    let text = |shape: &str| {
+        format!(
+            r#"
+            [forces]
+            gravity = ["0 m/s2", "-9.81 m/s2", "0 m/s2"]
+            [[wall]]
+            name = "box"
+            {shape}
+            law = "reflect"
+            restitution = 0.8
+            tangential_restitution = 0.9
+            [[injection]]
+            density = "2500 kg/m3"
+            diameter = "200 um"
+            count = 200
+            position = {{ box = [["10 mm", "5 mm", "5 mm"], ["40 mm", "15 mm", "25 mm"]] }}
+            velocity = ["2 m/s", "1 m/s", "-3 m/s"]
+            [run]
+            until = "40 ms"
+            "#
+        )
+    };
+    let made = |shape: &str| {
+        let case = Case::from_toml(&text(shape), &folder.path().join("case.toml"), &Library::builtin()).unwrap();
+        let out = folder.path().join(if shape.starts_with("stl") { "stl" } else { "box" });
+        let summary = run(&case, &options(&out, 1), &Silent).unwrap();
+        let mut rows = csv::Reader::from_path(out.join("impacts.csv")).unwrap();
+        let times: Vec<(u64, f64)> =
+            rows.records().map(|r| r.unwrap()).map(|r| (r[0].parse().unwrap(), r[1].parse().unwrap())).collect();
+        (summary, times)
+    };
+    let (stl, stl_times) = made("stl = { file = \"box.stl\", unit = \"1 mm\" }");
+    let (room, room_times) = made("box = [[\"0 m\", \"0 m\", \"0 m\"], [\"50 mm\", \"20 mm\", \"30 mm\"]]");
+    assert_eq!(stl.walls[0].impacts, room.walls[0].impacts);
+    assert!(room.walls[0].impacts > 800);
+    for (a, b) in stl_times.iter().zip(&room_times) {
+        // the file's corners are single precision: 20 mm is off by 4e-10 of itself
+        assert!(a.0 == b.0 && (a.1 - b.1).abs() < 1e-8, "{a:?} {b:?}");
+    }
+    let lost =
+        Case::from_toml(&text("stl = { file = \"bix.stl\" }"), &folder.path().join("case.toml"), &Library::builtin());
+    assert!(lost.unwrap_err().to_string().contains("bix.stl"));
+}

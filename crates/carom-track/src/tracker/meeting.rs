@@ -23,6 +23,8 @@ struct After {
     restitution: f64,
     impulse_ratio: f64,
     energy: Energy,
+    /// A bounce of a wall law, which may be the last.
+    bounces: bool,
 }
 
 impl<D: Domain> Tracker<'_, D> {
@@ -46,13 +48,18 @@ impl<D: Domain> Tracker<'_, D> {
         if lane.trace {
             sink.point(lane.particle.number, lane.time, hit.meeting.position, v, spin);
         }
-        let after = self.outcome(crew, l, hit, v, spin);
-        sink.impact(&record(&crew.lanes[l], hit, v, spin, &after));
+        let mut after = self.outcome(crew, l, hit, v, spin);
         put(crew, l, hit.meeting.position, after.velocity, after.spin);
+        if after.event == Event::Rebound {
+            self.refresh(crew, l);
+            if after.bounces && (crew.lanes[l].standing > WEDGED || self.settles(crew, l, hit, &after)) {
+                after = After { event: Event::Settle, velocity: hit.wall_velocity, spin: [0.0; 3], ..after };
+                put(crew, l, hit.meeting.position, after.velocity, after.spin);
+            }
+        }
+        sink.impact(&record(&crew.lanes[l], hit, v, spin, &after));
         if let Some(fate) = after.event.ends() {
             finish(crew, l, fate, Some(hit.wall), sink);
-        } else {
-            self.refresh(crew, l);
         }
     }
 
@@ -67,6 +74,7 @@ impl<D: Domain> Tracker<'_, D> {
             restitution: 0.0,
             impulse_ratio: f64::NAN,
             energy: Energy::default(),
+            bounces: false,
         };
         let Some(behavior) = self.behaviors.get(hit.wall) else { return stay(Event::Trap) };
         let law = match behavior {
@@ -96,18 +104,15 @@ impl<D: Domain> Tracker<'_, D> {
             draws: [0.5; 4],
         };
         let Ok(out) = law.impact(&impact) else { return stay(at_rest(law, &impact)) };
-        let mut after = After {
+        After {
+            bounces: true,
             event: if out.fate == LawFate::Capture { Event::Capture } else { Event::Rebound },
             velocity: out.velocity,
             spin: out.spin,
             restitution: out.restitution,
             impulse_ratio: out.impulse_ratio,
             energy: out.energy,
-        };
-        if after.event == Event::Rebound && (lane.standing > WEDGED || self.settles(crew, l, hit, &after)) {
-            after = After { event: Event::Settle, velocity: hit.wall_velocity, spin: [0.0; 3], ..after };
         }
-        after
     }
 
     /// Would the next bounce rise less than the stated height?
@@ -116,16 +121,15 @@ impl<D: Domain> Tracker<'_, D> {
         let n = hit.meeting.normal;
         let up = dot(sub(after.velocity, hit.wall_velocity), n);
         let limit = 2.0 * self.settings.settle_height.of(crew.bodies.radius[l]);
-        let pressing = |v: Vec3| -> f64 {
-            let a = self.rates_at(&crew.bodies, l, hit.meeting.position, v, after.spin).a;
-            -(n[0] * a[0][0] + n[1] * a[1][0] + n[2] * a[2][0])
-        };
-        // drag on the way up only adds to what presses: a cheap first look before the exact one, without it
-        if up * up >= limit * pressing(after.velocity).max(0.0) && up > 0.0 {
+        let a = &crew.rates.a;
+        // drag on the way up only adds to what presses: a first look at the rates there are before the exact one without it
+        let at_most = -(n[0] * a[0][l] + n[1] * a[1][l] + n[2] * a[2][l]);
+        if up > 0.0 && up * up >= limit * at_most.max(0.0) {
             return false;
         }
         let along = sub(after.velocity, scale(n, up));
-        let press = pressing(along);
+        let a = self.rates_at(&crew.bodies, l, hit.meeting.position, along, after.spin).a;
+        let press = -(n[0] * a[0][0] + n[1] * a[1][0] + n[2] * a[2][0]);
         if up <= 0.0 { press >= 0.0 } else { up * up < limit * press }
     }
 }

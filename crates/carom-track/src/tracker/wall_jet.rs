@@ -19,7 +19,7 @@ pub(super) fn leave(v: Vec3, n: Vec3, draws: [f64; 2]) -> Option<Vec3> {
     let speed = norm(v);
     let along = sub(v, scale(n, dot(v, n)));
     let tangential = norm(along);
-    if !(dot(v, n) < -1e-12 * speed) {
+    if dot(v, n) >= -1e-12 * speed {
         return None;
     }
     let forward = if tangential > 0.0 { scale(along, 1.0 / tangential) } else { crate::vector::frame(n).0 };

@@ -1,0 +1,104 @@
+//! `carom capture`: the window of rebound of one diameter, or a curve over diameters.
+
+use crate::failure::Failure;
+use crate::figures::Figures;
+use crate::grid::{Grid, GridArgs, Over, Swept};
+use crate::law::LawArgs;
+use crate::motion::{ImpactArgs, MotionArgs};
+use crate::output;
+use crate::text::Lines;
+use carom_report::{Axis, Column, Plot, Table};
+
+const EXAMPLE: &str = "\
+Examples:
+  carom capture --sphere copper --surface aluminium --diameter 10um --roughness-factor 0.8
+  carom capture --sphere copper --surface aluminium --over diameter=1um..1mm --plot capture.svg
+  carom capture --sphere copper --over diameter=1..100um --by surface=aluminium,silicon,stainless-steel
+
+At and below the capture velocity (normal to the wall) the sphere sticks.";
+
+/// The window of rebound: capture velocity, yield velocity, Tabor's parameter, for one diameter or a range
+#[derive(clap::Args)]
+#[command(after_long_help = EXAMPLE)]
+pub struct Args {
+    /// Diameter of the sphere, such as 90um
+    #[arg(long, value_name = "LENGTH", help_heading = "Impact", value_parser = crate::values::diameter)]
+    diameter: Option<f64>,
+    #[command(flatten)]
+    law: LawArgs,
+    /// A range of diameters: diameter=1um..1mm
+    #[arg(long, value_name = "RANGE", help_heading = "Sweep")]
+    over: Option<Over>,
+    #[command(flatten)]
+    grid: GridArgs,
+}
+
+/// Runs the subcommand.
+pub fn run(args: &Args) -> Result<(), Failure> {
+    let motion = MotionArgs { diameter: args.diameter, ..MotionArgs::default() };
+    let case = ImpactArgs { motion, law: args.law.clone() };
+    match args.over {
+        Some(over) => curves(args, over, &case),
+        None if args.grid.needs_over() => {
+            Err(Failure::input("--by, --out and --plot need a range; give --over, such as --over diameter=1um..1mm"))
+        }
+        None => one(args, &case),
+    }
+}
+
+#[derive(serde::Serialize)]
+struct Answer {
+    diameter: f64,
+    law: String,
+    #[serde(flatten)]
+    figures: Figures,
+}
+
+fn one(args: &Args, case: &ImpactArgs) -> Result<(), Failure> {
+    let diameter = case.motion.wanted_diameter()?;
+    let law = case.law.compile(false)?;
+    let figures = Figures::new(&law.wall, diameter)?;
+    if args.grid.json() {
+        return output::print_json(&Answer { diameter, law: law.normal_name(), figures });
+    }
+    let mut lines = Lines::default();
+    figures.tell(&mut lines);
+    output::print(&format!("{}\n\n{lines}", law.heading(diameter)))
+}
+
+fn curves(args: &Args, over: Over, case: &ImpactArgs) -> Result<(), Failure> {
+    if over.quantity != Swept::Diameter {
+        let got = over.quantity.flag();
+        return Err(Failure::input(format!("--over {got}: the capture velocity has a curve over diameter alone")));
+    }
+    let files = args.grid.files()?;
+    let grid = args.grid.grid(over, case)?;
+    if let Some(flag) = ["speed", "angle", "spin"].into_iter().find(|f| grid.varies(f)) {
+        return Err(Failure::input(format!("--by {flag}: the capture velocity does not depend on it")));
+    }
+    let mut figures = Vec::with_capacity(grid.curves.len() * grid.points.len());
+    let mut titles = Vec::new();
+    for curve in &grid.curves {
+        let law = curve.args.law.compile(false)?;
+        for diameter in &grid.points {
+            figures.push(Figures::new(&law.wall, *diameter)?);
+        }
+        titles.push(law.description());
+    }
+    let table = || table(&grid, &figures);
+    grid.show(&files, table, table, || {
+        let title = if grid.curves.len() == 1 { titles.concat() } else { String::new() };
+        let capture: Vec<f64> = figures.iter().map(|f| f.capture_velocity.unwrap_or(f64::NAN)).collect();
+        grid.draw(Plot::new(title, grid.axis(), Axis::new("capture velocity", "m/s").log()), &capture)
+    })
+}
+
+fn table(grid: &Grid, figures: &[Figures]) -> Result<Table, Failure> {
+    let mut columns = grid.columns();
+    columns.push(Column::float("capture_velocity", "m/s", figures.iter().map(|f| f.capture_velocity)));
+    columns.push(Column::float("exhausted_velocity", "m/s", figures.iter().map(|f| f.exhausted_velocity)));
+    columns.push(Column::float("yield_velocity", "m/s", figures.iter().map(|f| f.yield_velocity)));
+    columns.push(Column::float("tabor_parameter", "", figures.iter().map(Figures::tabor)));
+    columns.push(Column::optional_text("regime", figures.iter().map(Figures::regime)));
+    Ok(Table::new(columns)?)
+}

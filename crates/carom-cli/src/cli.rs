@@ -1,0 +1,46 @@
+//! The command line as a whole.
+
+use crate::failure::Failure;
+use crate::{capture, impact, materials, run, sweep};
+use clap::{Parser, Subcommand};
+
+const EXAMPLES: &str = "\
+Examples:
+  carom impact --sphere copper --surface aluminium --diameter 90um --speed 2m/s
+  carom sweep --sphere copper --surface aluminium --diameter 90um --over speed=0.01..30 --plot e.svg
+  carom capture --sphere copper --surface aluminium --over diameter=1um..1mm
+  carom materials copper
+  carom run examples/wind-tunnel.toml --out out/
+
+Quantities take a unit (90um, 2m/s, 190GPa) or are SI numbers. `carom SUBCOMMAND --help` says more.
+Exit codes: 0 done, 2 the input is wrong, 1 anything else.";
+
+/// What happens when a small particle hits a wall: does it stick or bounce, how fast, at what angle, with what spin
+#[derive(Parser)]
+#[command(name = "carom", version, after_help = EXAMPLES, max_term_width = 110, subcommand_required = true)]
+pub struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Impact(Box<impact::Args>),
+    Sweep(Box<sweep::Args>),
+    Capture(Box<capture::Args>),
+    Materials(materials::Args),
+    Run(run::Args),
+}
+
+impl Cli {
+    /// Runs the subcommand.
+    pub fn run(&self) -> Result<(), Failure> {
+        match &self.command {
+            Command::Impact(args) => impact::run(args),
+            Command::Sweep(args) => sweep::run(args),
+            Command::Capture(args) => capture::run(args),
+            Command::Materials(args) => materials::run(args),
+            Command::Run(args) => run::run(args),
+        }
+    }
+}

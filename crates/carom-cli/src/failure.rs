@@ -1,0 +1,118 @@
+//! What can go wrong, how it is shown, and the exit code: 2 for the user's input, 1 for anything else.
+
+use carom::SpecError;
+use carom_report::ReportError;
+use clap::error::ErrorKind;
+use miette::{LabeledSpan, MietteDiagnostic, NamedSource};
+use std::io::{self, Write as _};
+use std::process::ExitCode;
+
+/// Why the command stops.
+#[derive(Debug)]
+pub enum Failure {
+    /// The user's input is wrong: what, where, what would be right.
+    Input(String),
+    /// The same in a file, with the place.
+    InFile(Box<miette::Report>),
+    /// Anything else.
+    Other(String),
+    /// Nobody reads the output any more (`carom sweep ... | head`): not an error.
+    BrokenPipe,
+}
+
+impl Failure {
+    /// The user's mistake, in a line.
+    pub fn input(message: impl Into<String>) -> Self {
+        Self::Input(message.into())
+    }
+
+    /// A mistake in the text of a file; without a place it is shown in a line.
+    pub fn in_file(error: SpecError, name: &str, text: &str) -> Self {
+        let Some(span) = error.span.clone() else { return Self::Input(format!("{name}: {error}")) };
+        let mut diagnostic =
+            MietteDiagnostic::new(error.message).with_label(LabeledSpan::underline(first_line(span, text)));
+        if let Some(help) = error.help {
+            diagnostic = diagnostic.with_help(help);
+        }
+        let source = NamedSource::new(name, text.to_owned());
+        Self::InFile(Box::new(miette::Report::new(diagnostic).with_source_code(source)))
+    }
+
+    /// Shows it on standard error and gives the exit code.
+    pub fn report(self) -> ExitCode {
+        match self {
+            Self::Input(message) => {
+                show(&message);
+                ExitCode::from(2)
+            }
+            Self::InFile(report) => {
+                say(&format!("{report:?}"));
+                ExitCode::from(2)
+            }
+            Self::Other(message) => {
+                show(&message);
+                ExitCode::FAILURE
+            }
+            Self::BrokenPipe => ExitCode::SUCCESS,
+        }
+    }
+}
+
+/// A line on standard error; when that is closed too, nothing is left to do.
+pub fn say(line: &str) {
+    let _ = writeln!(io::stderr(), "{line}");
+}
+
+/// Through clap, so that all errors in a line look alike and know whether the terminal takes colours.
+fn show(message: &str) {
+    let _ = clap::Error::raw(ErrorKind::ValueValidation, format!("{message}\n")).print();
+}
+
+/// A span that runs over several lines is cut to its first: a place is wanted, not the whole table.
+fn first_line(span: std::ops::Range<usize>, text: &str) -> std::ops::Range<usize> {
+    let start = span.start.min(text.len());
+    let end = span.end.clamp(start, text.len());
+    let line = text.get(start..end).and_then(|s| s.find('\n')).map_or(end, |n| start + n);
+    start..line
+}
+
+impl From<ReportError> for Failure {
+    fn from(error: ReportError) -> Self {
+        match &error {
+            ReportError::UnknownExtension { .. } => Self::Input(error.to_string()),
+            ReportError::File { path, source } => of_file(&path.display().to_string(), source),
+            ReportError::Stream(source) => Self::from_output(source),
+            _ => Self::Other(error.to_string()),
+        }
+    }
+}
+
+impl Failure {
+    /// Writing to standard output failed.
+    pub fn from_output(error: &io::Error) -> Self {
+        if error.kind() == io::ErrorKind::BrokenPipe {
+            Self::BrokenPipe
+        } else {
+            Self::Other(format!("standard output: {error}"))
+        }
+    }
+}
+
+/// A file that cannot be read or written: the user's mistake where another path would do.
+pub fn of_file(name: &str, error: &io::Error) -> Failure {
+    use io::ErrorKind as K;
+    let text = error.to_string();
+    // the number says nothing to the reader
+    let message = format!("{name}: {}", text.split(" (os error").next().unwrap_or(&text));
+    match error.kind() {
+        K::NotFound
+        | K::PermissionDenied
+        | K::NotADirectory
+        | K::IsADirectory
+        | K::InvalidData
+        | K::InvalidInput
+        | K::InvalidFilename
+        | K::ReadOnlyFilesystem => Failure::Input(message),
+        _ => Failure::Other(message),
+    }
+}

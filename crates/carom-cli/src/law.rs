@@ -1,0 +1,238 @@
+//! The flags that make a wall law: every key of the text form in kebab-case, over a law from a file if one is named.
+
+mod wording;
+
+use crate::failure::Failure;
+use crate::output;
+use crate::text::scaled;
+use crate::values;
+use carom::material::{Library, MaterialRef};
+use carom::resolved::AdhesionMode;
+use carom::spec::{At, CurveSpec, LawSpec, NormalKind, NormalSpec, TangentialKind, parse_named_law};
+use carom::units::{InverseSpeed, Length, Number, Pressure, Speed, SurfaceEnergy};
+use carom::{SpecError, WallLaw};
+use std::path::{Path, PathBuf};
+
+/// Material files.
+#[derive(clap::Args, Clone, Debug, Default)]
+pub struct MaterialsArgs {
+    /// File with [material.NAME] tables to add to the library (repeatable)
+    #[arg(long, value_name = "FILE", help_heading = "Materials")]
+    pub materials: Vec<PathBuf>,
+}
+
+impl MaterialsArgs {
+    /// The library with the user's materials added.
+    pub fn library(&self) -> Result<Library, Failure> {
+        let mut library = Library::builtin();
+        for path in &self.materials {
+            let text = output::read(path)?;
+            library.extend_from_toml(&text).map_err(|e| Failure::in_file(e, &path.display().to_string(), &text))?;
+        }
+        Ok(library)
+    }
+}
+
+/// The flags of a wall law.
+#[derive(clap::Args, Clone, Debug, Default)]
+pub struct LawArgs {
+    /// Sphere: a material's name (see `carom materials`) or rho=8000,E=190GPa,nu=0.27,gamma=1.62,sigma=310MPa
+    #[arg(long, value_name = "MATERIAL", help_heading = "Materials", value_parser = values::material)]
+    sphere: Option<MaterialRef>,
+    /// Surface: likewise
+    #[arg(long, value_name = "MATERIAL", help_heading = "Materials", value_parser = values::material)]
+    surface: Option<MaterialRef>,
+    #[command(flatten)]
+    pub materials: MaterialsArgs,
+
+    /// Read the law from the table [law.NAME] of a TOML file; flags given besides override its keys
+    #[arg(long, value_name = "FILE:NAME", help_heading = "Normal law", value_parser = values::law_place)]
+    wall_law: Option<(PathBuf, String)>,
+    /// ea, eap, thornton-ning, tabor, constant, by-angle or resolved; or losses, separated by commas:
+    /// adhesion-work, adhesion-damping, hertz-damping, adhesion-jkr, plastic-kadomtsev, plastic-thornton-ning,
+    /// plastic-tabor [default: ea]
+    #[arg(long, value_name = "LAW", help_heading = "Normal law", value_parser = values::normal_law)]
+    law: Option<NormalSpec>,
+    /// Restitution of the constant law, or a curve for by-angle: grant-tabakoff, or '{ polynomial = [...] }'
+    #[arg(long, value_name = "E", help_heading = "Normal law", value_parser = values::restitution)]
+    restitution: Option<CurveSpec>,
+    /// Damping of the adhesion force, C_A, s/m
+    #[arg(long, value_name = "C_A", help_heading = "Normal law")]
+    adhesion_damping: Option<InverseSpeed>,
+    /// Damping of the Hertz force, C_H, s/m
+    #[arg(long, value_name = "C_H", help_heading = "Normal law")]
+    hertz_damping: Option<InverseSpeed>,
+    /// Resolved law: adhesion acts separation-only or is reversible [default: separation-only]
+    #[arg(long, value_name = "MODE", help_heading = "Normal law")]
+    adhesion: Option<AdhesionMode>,
+    /// Tabor's fitted yield velocity, m/s
+    #[arg(long, value_name = "SPEED", help_heading = "Normal law")]
+    yield_velocity: Option<Speed>,
+    /// Meyer's index n of Tabor's law
+    #[arg(long, value_name = "N", help_heading = "Normal law")]
+    meyer_index: Option<Number>,
+    /// Thornton-Ning's limiting contact pressure, Pa [default: from the yield strength]
+    #[arg(long, value_name = "PRESSURE", help_heading = "Normal law")]
+    limiting_pressure: Option<Pressure>,
+
+    /// rolling, walton, constant or by-angle [default: rolling]
+    #[arg(long, value_name = "LAW", help_heading = "Tangential law")]
+    tangential: Option<TangentialKind>,
+    /// Coulomb friction coefficient; needed where the impact is oblique or spins
+    #[arg(long, value_name = "F", help_heading = "Tangential law")]
+    friction: Option<Number>,
+    /// Walton's beta, from 0 (rolling) to 1 (the slip is reversed)
+    #[arg(long, value_name = "BETA", help_heading = "Tangential law")]
+    walton_beta: Option<Number>,
+    /// Tangential restitution, or a curve by angle such as grant-tabakoff
+    #[arg(long, value_name = "E_T", help_heading = "Tangential law", value_parser = values::tangential_restitution)]
+    tangential_restitution: Option<CurveSpec>,
+
+    /// Factor C_R on the adhesion force, above 0 and up to 1 [default: 1]
+    #[arg(long, value_name = "C_R", help_heading = "Surfaces", conflicts_with = "roughness")]
+    roughness_factor: Option<Number>,
+    /// Standard deviation of the heights, from which C_R follows
+    #[arg(long, value_name = "LENGTH", help_heading = "Surfaces")]
+    roughness: Option<Length>,
+    /// Radius of curvature of the surface: inf is flat, negative is concave [default: inf]
+    #[arg(long, value_name = "LENGTH", help_heading = "Surfaces", value_parser = values::curvature)]
+    surface_curvature: Option<carom::spec::CurvatureRadius>,
+    /// Interfacial parameter of the work of adhesion [default: 1]
+    #[arg(long, value_name = "PHI", help_heading = "Surfaces")]
+    interfacial_parameter: Option<Number>,
+    /// Equilibrium spacing z0 of the surfaces
+    #[arg(long, value_name = "LENGTH", help_heading = "Surfaces")]
+    equilibrium_spacing: Option<Length>,
+
+    /// Work of adhesion w, J/m2
+    #[arg(long, value_name = "W", help_heading = "Instead of what the materials give")]
+    work_of_adhesion: Option<SurfaceEnergy>,
+    /// Hertzian stiffness K, Pa
+    #[arg(long, value_name = "K", help_heading = "Instead of what the materials give")]
+    stiffness: Option<Pressure>,
+    /// Plastic constant k, Pa
+    #[arg(long, value_name = "K_P", help_heading = "Instead of what the materials give")]
+    plastic_constant: Option<Pressure>,
+}
+
+/// A law ready to answer, and what the command says about it.
+pub struct Law {
+    /// The compiled law.
+    pub wall: WallLaw,
+    /// As written, file and flags together.
+    pub spec: LawSpec,
+    /// Was a friction coefficient given?
+    pub has_friction: bool,
+}
+
+/// The file a law came from: its name and text.
+type Source = (String, String);
+
+impl LawArgs {
+    /// The law of the file, if any, under the flags.
+    fn spec(&self) -> Result<(LawSpec, Option<Source>), Failure> {
+        let (mut spec, source) = match &self.wall_law {
+            Some((path, name)) => from_file(path, name)?,
+            None => (LawSpec { normal: Some(NormalSpec::Named(NormalKind::Ea).into()), ..LawSpec::default() }, None),
+        };
+        // each of the two says what C_R is, so a flag for one puts the file's other aside
+        if self.roughness_factor.is_some() {
+            spec.roughness = None;
+        }
+        if self.roughness.is_some() {
+            spec.roughness_factor = None;
+        }
+        macro_rules! put {
+            ($($key:ident = $flag:ident),* $(,)?) => {$(
+                if let Some(value) = &self.$flag {
+                    spec.$key = Some(At::from(value.clone()));
+                }
+            )*};
+        }
+        put! {
+            sphere = sphere, surface = surface, normal = law, restitution = restitution, adhesion_damping = adhesion_damping,
+            hertz_damping = hertz_damping, adhesion = adhesion, yield_velocity = yield_velocity, meyer_index = meyer_index,
+            limiting_pressure = limiting_pressure, tangential = tangential, friction = friction, walton_beta = walton_beta,
+            tangential_restitution = tangential_restitution, roughness_factor = roughness_factor, roughness = roughness,
+            surface_curvature = surface_curvature, interfacial_parameter = interfacial_parameter,
+            equilibrium_spacing = equilibrium_spacing, work_of_adhesion = work_of_adhesion, stiffness = stiffness,
+            plastic_constant = plastic_constant,
+        }
+        for (body, material) in [("sphere", &mut spec.sphere), ("surface", &mut spec.surface)] {
+            if let Some(At { value: MaterialRef::Inline(inline), .. }) = material {
+                inline.name = format!("given {body}");
+            }
+        }
+        Ok((spec, source))
+    }
+
+    /// Compiles the law. Where nothing is `oblique`, friction does nothing and need not be given.
+    pub fn compile(&self, oblique: bool) -> Result<Law, Failure> {
+        let library = self.materials.library()?;
+        let (mut spec, source) = self.spec()?;
+        for (flag, given) in [("--sphere", &self.sphere), ("--surface", &self.surface)] {
+            if let Some(material) = given {
+                material.resolve(&library).map_err(|e| Failure::input(format!("{flag}: {e}")))?;
+            }
+        }
+        let has_friction = spec.friction.is_some();
+        if !oblique && !has_friction {
+            spec.friction = Some(Number(0.0).into());
+        }
+        let wall = spec.compile(&library).map_err(|e| self.explain(e, source.as_ref()))?;
+        Ok(Law { wall, spec, has_friction })
+    }
+
+    /// An error in the words of whoever made it: at its place in the file, or with flags for keys.
+    fn explain(&self, error: SpecError, source: Option<&Source>) -> Failure {
+        match source {
+            Some((name, text)) if error.span.is_some() => Failure::in_file(error, name, text),
+            Some((name, _)) => Failure::input(format!("{name}: {}", wording::as_flags(&error))),
+            None => Failure::input(wording::as_flags(&error)),
+        }
+    }
+}
+
+fn from_file(path: &Path, name: &str) -> Result<(LawSpec, Option<Source>), Failure> {
+    let text = output::read(path)?;
+    let file = path.display().to_string();
+    let spec = parse_named_law(&text, name).map_err(|e| Failure::in_file(e, &file, &text))?;
+    Ok((spec, Some((file, text))))
+}
+
+impl Law {
+    /// The law in a few words: `copper on aluminium, ea`.
+    pub fn description(&self) -> String {
+        self.materials().into_iter().chain([self.normal_name()]).collect::<Vec<_>>().join(", ")
+    }
+
+    /// With the diameter, as a heading: `90 um copper on aluminium, ea`.
+    pub fn heading(&self, diameter: f64) -> String {
+        let materials = self.materials().unwrap_or_else(|| "sphere".to_owned());
+        format!("{} {materials}, {}", scaled(diameter, "m"), self.normal_name())
+    }
+
+    /// `copper on aluminium`, if the law has materials.
+    pub fn materials(&self) -> Option<String> {
+        Some(format!("{} on {}", self.sphere()?, self.surface()?))
+    }
+
+    /// The sphere's material.
+    pub fn sphere(&self) -> Option<String> {
+        self.wall.pair().map(|p| p.sphere().name.clone())
+    }
+
+    /// The surface's material.
+    pub fn surface(&self) -> Option<String> {
+        self.wall.pair().map(|p| p.surface().name.clone())
+    }
+
+    /// The normal law's name, or its losses.
+    pub fn normal_name(&self) -> String {
+        match self.spec.normal.as_ref().map(|n| &n.value) {
+            Some(NormalSpec::Named(kind)) => kind.name().to_owned(),
+            Some(NormalSpec::Losses(losses)) => losses.iter().map(|l| l.name()).collect::<Vec<_>>().join(" + "),
+            None => String::new(),
+        }
+    }
+}

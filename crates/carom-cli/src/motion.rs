@@ -1,0 +1,148 @@
+//! How the sphere comes: its size, speed, angle and spin; and what one impact makes of it.
+
+use crate::failure::Failure;
+use crate::law::{Law, LawArgs};
+use crate::text::scaled;
+use crate::values;
+use carom::{Fate, Impact, ImpactError, Outcome, WallLaw};
+
+/// The flags of an impact: a wall law and a motion.
+#[derive(clap::Args, Clone, Debug, Default)]
+pub struct ImpactArgs {
+    #[command(flatten)]
+    pub motion: MotionArgs,
+    #[command(flatten)]
+    pub law: LawArgs,
+}
+
+/// The motion's flags.
+#[derive(clap::Args, Clone, Debug, Default)]
+pub struct MotionArgs {
+    /// Diameter of the sphere, such as 90um
+    #[arg(long, value_name = "LENGTH", help_heading = "Impact", value_parser = values::diameter)]
+    pub diameter: Option<f64>,
+    /// Speed of approach, such as 2m/s
+    #[arg(long, value_name = "SPEED", help_heading = "Impact", value_parser = values::speed)]
+    pub speed: Option<f64>,
+    /// Angle of approach from the surface, degrees; 90 is head-on [default: 90]
+    #[arg(long, value_name = "DEG", help_heading = "Impact", value_parser = values::angle)]
+    pub angle: Option<f64>,
+    /// Spin before the impact, rad/s; positive rolls forward along the tangential velocity [default: 0]
+    #[arg(long, value_name = "SPIN", help_heading = "Impact", value_parser = values::spin)]
+    pub spin: Option<f64>,
+}
+
+/// A motion in numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Motion {
+    /// Diameter, m.
+    pub diameter: f64,
+    /// Speed, m/s.
+    pub speed: f64,
+    /// Angle from the surface, degrees.
+    pub angle: f64,
+    /// Spin, rad/s.
+    pub spin: f64,
+}
+
+impl MotionArgs {
+    /// The motion, complete.
+    pub fn complete(&self) -> Result<Motion, Failure> {
+        Ok(Motion {
+            diameter: self.wanted_diameter()?,
+            speed: self.speed.ok_or_else(|| {
+                Failure::input("--speed is missing; give the speed of approach, such as --speed 2m/s")
+            })?,
+            angle: self.angle.unwrap_or(90.0),
+            spin: self.spin.unwrap_or(0.0),
+        })
+    }
+
+    /// The diameter alone.
+    pub fn wanted_diameter(&self) -> Result<f64, Failure> {
+        self.diameter
+            .ok_or_else(|| Failure::input("--diameter is missing; give the sphere's diameter, such as --diameter 90um"))
+    }
+
+    /// Does friction act: is there a tangential speed or a spin?
+    pub fn is_oblique(&self) -> bool {
+        self.angle.is_some_and(|a| a != 90.0) || self.spin.is_some_and(|s| s != 0.0)
+    }
+}
+
+impl Motion {
+    /// Normal and tangential speed, m/s.
+    pub fn components(&self) -> (f64, f64) {
+        // π/2 is no double: head-on has no tangential speed at all
+        if self.angle == 90.0 {
+            return (self.speed, 0.0);
+        }
+        let (sin, cos) = self.angle.to_radians().sin_cos();
+        (self.speed * sin, self.speed * cos)
+    }
+
+    /// The impact, on a wall at y = 0 with the sphere above it moving along +x.
+    pub fn meet(&self, wall: &WallLaw) -> Result<Met, ImpactError> {
+        let (normal, tangential) = self.components();
+        let mut impact = Impact::new(self.diameter, [tangential, -normal, 0.0], [0.0, 1.0, 0.0]);
+        impact.spin = [0.0, 0.0, -self.spin];
+        Ok(Met::from(wall.impact(&impact)?))
+    }
+}
+
+/// An outcome in the plane of the impact.
+pub struct Met {
+    /// The core's answer.
+    pub outcome: Outcome,
+    /// Normal speed after, m/s, 0 for a capture.
+    pub normal: f64,
+    /// Tangential speed after, m/s, negative when it goes back.
+    pub tangential: f64,
+    /// Spin after, rad/s.
+    pub spin: f64,
+}
+
+impl From<Outcome> for Met {
+    fn from(outcome: Outcome) -> Self {
+        // without the signs of zeros, which say nothing here
+        let [tangential, normal] = [outcome.velocity[0] + 0.0, outcome.velocity[1] + 0.0];
+        Self { outcome, normal, tangential, spin: 0.0 - outcome.spin[2] }
+    }
+}
+
+impl Met {
+    /// Did it rebound?
+    pub fn rebounds(&self) -> bool {
+        self.outcome.fate == Fate::Rebound
+    }
+
+    /// Speed after, m/s.
+    pub fn speed(&self) -> f64 {
+        self.normal.hypot(self.tangential)
+    }
+
+    /// Angle after from the surface, degrees, beyond 90 when it goes back; NaN for a capture.
+    pub fn angle(&self) -> f64 {
+        if self.rebounds() { self.normal.atan2(self.tangential).to_degrees() } else { f64::NAN }
+    }
+}
+
+/// An impact the core refused, in terms of the flags.
+pub fn refused(error: ImpactError, motion: &Motion) -> Failure {
+    let Motion { diameter, speed, angle, spin } = *motion;
+    let what = match error {
+        ImpactError::NotApproaching => format!("--speed {speed} at --angle {angle}"),
+        ImpactError::Curvature | ImpactError::Diameter => format!("--diameter {}", scaled(diameter, "m")),
+        ImpactError::NotFinite => format!("--speed {speed}, --spin {spin}"),
+        ImpactError::Density => "the sphere's density".to_owned(),
+    };
+    Failure::input(format!("{what}: {error}"))
+}
+
+/// The critical angle in degrees, `None` where friction was not given or does not rule.
+pub fn critical_angle(law: &Law, motion: &Motion) -> Option<f64> {
+    if !law.has_friction {
+        return None;
+    }
+    law.wall.critical_angle(motion.diameter, None, motion.speed).ok().flatten().map(f64::to_degrees)
+}

@@ -1,0 +1,99 @@
+//! Standard output and the files a command writes: checked before anything is computed, whole or not there at all.
+
+use crate::failure::{Failure, of_file, say};
+use carom_report::plot::ImageFormat;
+use carom_report::{Format, Plot, Table};
+use std::io::{self, Write as _};
+use std::path::{Path, PathBuf};
+
+/// Prints a text. A closed pipe ends the command quietly.
+pub fn print(text: &str) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    out.write_all(text.as_bytes()).and_then(|()| out.flush()).map_err(|e| Failure::from_output(&e))
+}
+
+/// Prints a value as JSON. NaN and infinity, which JSON lacks, are null.
+pub fn print_json(value: &impl serde::Serialize) -> Result<(), Failure> {
+    let text = serde_json::to_string_pretty(value).map_err(|e| Failure::Other(format!("JSON: {e}")))?;
+    print(&format!("{text}\n"))
+}
+
+/// The files a command is asked to write.
+pub struct Files<'a> {
+    table: Option<&'a Path>,
+    plot: Option<&'a Path>,
+}
+
+impl<'a> Files<'a> {
+    /// Refuses, before anything is computed, what could not be written.
+    pub fn check(table: Option<&'a PathBuf>, plot: Option<&'a PathBuf>) -> Result<Self, Failure> {
+        if let Some(path) = table {
+            Format::from_path(path)?;
+            check_folder(path)?;
+        }
+        if let Some(path) = plot {
+            ImageFormat::from_path(path)?;
+            check_folder(path)?;
+        }
+        if table.is_some() && table == plot {
+            return Err(Failure::input("the table and the plot go to one file; name two"));
+        }
+        Ok(Self { table: table.map(PathBuf::as_path), plot: plot.map(PathBuf::as_path) })
+    }
+
+    /// Is any file wanted?
+    pub fn any(&self) -> bool {
+        self.table.is_some() || self.plot.is_some()
+    }
+
+    /// Writes them and says so on standard error. If the second fails, the first is taken away again.
+    pub fn write(
+        &self,
+        table: impl FnOnce() -> Result<Table, Failure>,
+        plot: impl FnOnce() -> Plot,
+    ) -> Result<(), Failure> {
+        if let Some(path) = self.table {
+            table()?.write(path)?;
+        }
+        if let Some(path) = self.plot {
+            plot().write(path).map_err(|e| {
+                if let Some(written) = self.table {
+                    let _ = std::fs::remove_file(written);
+                }
+                Failure::from(e)
+            })?;
+        }
+        for path in [self.table, self.plot].into_iter().flatten() {
+            say(&format!("wrote {}", path.display()));
+        }
+        Ok(())
+    }
+}
+
+fn check_folder(path: &Path) -> Result<(), Failure> {
+    if path.is_dir() {
+        return Err(Failure::input(format!("{}: a folder; name a file", path.display())));
+    }
+    match path.parent().filter(|p| !p.as_os_str().is_empty()) {
+        Some(folder) if !folder.is_dir() => {
+            Err(Failure::input(format!("{}: there is no folder {}", path.display(), folder.display())))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Largest text file read, bytes: far beyond any law or material file.
+const LARGEST: u64 = 64 << 20;
+
+/// The text of a file named by the user.
+pub fn read(path: &Path) -> Result<String, Failure> {
+    use io::Read as _;
+    let name = path.display().to_string();
+    let mut text = String::new();
+    let file = std::fs::File::open(path).map_err(|e| of_file(&name, &e))?;
+    file.take(LARGEST + 1).read_to_string(&mut text).map_err(|e| of_file(&name, &e))?;
+    if text.len() as u64 > LARGEST {
+        return Err(Failure::input(format!("{name}: larger than 64 MiB, which no such file is")));
+    }
+    Ok(text)
+}

@@ -1,0 +1,135 @@
+//! `carom run`: particles of a case file from injection to fate.
+
+use crate::failure::{Failure, of_file, say};
+use crate::law::MaterialsArgs;
+use crate::output;
+use crate::trajectories;
+use carom_report::{Column, Table};
+use carom_track::record::Fate;
+use carom_track::{Case, Progress, RunError, RunOptions, Shard, Summary};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+const EXAMPLE: &str = "\
+Examples:
+  carom run examples/wind-tunnel.toml --out out/
+  carom run case.toml --out out/ --resume          go on where an interrupted run stopped
+  carom run case.toml --out part2/ --shard 2/8     the second of eight parts, on a machine of its own
+
+The folder then holds summary.json, impacts.csv, the paths (trajectories.csv, .vtp and .svg) and the deposit
+(deposition.csv, deposit.vtp). The results do not depend on threads, interruptions or shards.";
+
+/// Particles through a flow, from injection to fate, as a case file says
+#[derive(clap::Args)]
+#[command(after_long_help = EXAMPLE)]
+pub struct Args {
+    /// The case file
+    #[arg(value_name = "CASE.toml")]
+    case: PathBuf,
+    /// Folder for the results; only the summary is shown without it
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Threads; 0 for as many as the machine has
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = threads)]
+    threads: usize,
+    /// Go on where an interrupted run in the folder stopped
+    #[arg(long, requires = "out")]
+    resume: bool,
+    /// Only the part I of N parts, as I/N
+    #[arg(long, value_name = "I/N", requires = "out")]
+    shard: Option<Shard>,
+    #[command(flatten)]
+    materials: MaterialsArgs,
+    /// Print the summary as JSON
+    #[arg(long, help_heading = "Output")]
+    json: bool,
+}
+
+/// More threads than any machine has would only exhaust it.
+fn threads(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(n) if n <= 4096 => Ok(n),
+        _ => Err("a number from 0 to 4096 is wanted".into()),
+    }
+}
+
+/// Runs the subcommand.
+pub fn run(args: &Args) -> Result<(), Failure> {
+    if let Some(folder) = args.out.as_ref().filter(|f| f.exists() && !f.is_dir()) {
+        return Err(Failure::input(format!("--out {}: a file is there; name a folder", folder.display())));
+    }
+    let library = args.materials.library()?;
+    let text = output::read(&args.case)?;
+    let name = args.case.display().to_string();
+    let case = Case::from_toml(&text, &args.case, &library).map_err(|e| Failure::in_file(e, &name, &text))?;
+    let options = RunOptions { threads: args.threads, out: args.out.clone(), resume: args.resume, shard: args.shard };
+    let bar = Bar::new();
+    let summary = carom_track::run(&case, &options, &bar);
+    bar.0.finish_and_clear();
+    let summary = summary.map_err(failed)?;
+    if let Some(folder) = &args.out {
+        trajectories::draw(&case, folder)?;
+        say(&format!("wrote {}", folder.display()));
+    }
+    output::print(&if args.json { summary.to_json() } else { tell(&summary)? })
+}
+
+/// A bar on a terminal, nothing in a pipe.
+struct Bar(ProgressBar);
+
+impl Bar {
+    fn new() -> Self {
+        let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
+        let style = ProgressStyle::with_template("{wide_bar} {human_pos} of {human_len} particles, {eta} left");
+        Self(style.map_or_else(|_| bar.clone(), |style| bar.clone().with_style(style)))
+    }
+}
+
+impl Progress for Bar {
+    fn particles(&self, done: u64, all: u64) {
+        self.0.set_length(all);
+        self.0.set_position(done);
+    }
+}
+
+fn failed(error: RunError) -> Failure {
+    match &error {
+        RunError::Io { path, source } => of_file(&path.display().to_string(), source),
+        RunError::Foreign { .. } | RunError::NoFolder | RunError::Shard { .. } => Failure::input(error.to_string()),
+        _ => Failure::Other(error.to_string()),
+    }
+}
+
+/// What became of the particles, and what happened at each wall.
+fn tell(summary: &Summary) -> Result<String, Failure> {
+    let mut text = String::new();
+    if !summary.title.is_empty() {
+        let _ = writeln!(text, "{}\n", summary.title);
+    }
+    let ended: Vec<String> = Fate::ALL
+        .into_iter()
+        .filter(|fate| summary.count(*fate) > 0)
+        .map(|fate| format!("{} {}", summary.count(fate), fate.name()))
+        .collect();
+    let count = summary.injected.count;
+    let _ = writeln!(text, "{count} {}: {}\n", if count == 1 { "particle" } else { "particles" }, ended.join(", "));
+    if summary.stalled > 0 {
+        let _ = writeln!(text, "{} of the airborne were left where their steps ran out\n", summary.stalled);
+    }
+    let walls = &summary.walls;
+    let mut columns = vec![
+        Column::text("wall", walls.iter().map(|w| w.name.as_str())),
+        Column::count("impacts", walls.iter().map(|w| w.impacts)),
+        Column::count("rebounds", walls.iter().map(|w| w.rebounds)),
+    ];
+    for fate in [Fate::Captured, Fate::Settled, Fate::Trapped, Fate::Escaped] {
+        if summary.count(fate) > 0 {
+            columns.push(Column::count(fate.name(), walls.iter().map(|w| w.ends[fate as usize].count)));
+        }
+    }
+    if !walls.is_empty() {
+        text += &Table::new(columns)?.to_text();
+    }
+    Ok(text)
+}

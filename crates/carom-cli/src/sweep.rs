@@ -1,0 +1,192 @@
+//! `carom sweep`: impacts along a range of speeds, diameters or angles, as a table and a plot.
+
+use crate::failure::Failure;
+use crate::grid::{Grid, GridArgs, Over, Swept};
+use crate::law::Law;
+use crate::motion::{ImpactArgs, Met, refused};
+use crate::text::{plotted, quantity};
+use carom_report::plot::Reference;
+use carom_report::{Axis, Column, Plot, Table};
+
+const EXAMPLE: &str = "\
+Examples:
+  carom sweep --sphere copper --surface silicon --diameter 90um --over speed=0.01..30 --plot e.svg
+  carom sweep --sphere copper --surface silicon --over speed=0.01..30 --by diameter=10,90um --out e.csv
+  carom sweep --sphere copper --surface silicon --diameter 90um --over speed=0.1..30 --by law=ea,resolved
+  carom sweep --wall-law walls.toml:glass --diameter 90um --speed 2 --over angle=5..90 \
+    --quantity impulse-ratio --plot impulse.png
+
+The table goes to standard output unless a file is asked for with --out or --plot.";
+
+/// Many impacts along a range of speeds, diameters or angles: a table, a plot
+#[derive(clap::Args)]
+#[command(after_long_help = EXAMPLE)]
+pub struct Args {
+    #[command(flatten)]
+    case: ImpactArgs,
+    /// What runs, with its range: speed=0.1m/s..30m/s, diameter=1um..100um or angle=5..90
+    #[arg(long, value_name = "RANGE", help_heading = "Sweep")]
+    over: Over,
+    #[command(flatten)]
+    grid: GridArgs,
+    /// What the plot shows
+    #[arg(long, value_enum, default_value_t = Shown::Restitution, help_heading = "Output")]
+    quantity: Shown,
+}
+
+/// What a plot can show.
+#[derive(clap::ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
+enum Shown {
+    Restitution,
+    ReboundSpeed,
+    ImpulseRatio,
+    TangentialRestitution,
+    AngleOut,
+}
+
+impl Shown {
+    fn of(self, met: &Met) -> f64 {
+        match self {
+            Self::Restitution => met.outcome.restitution,
+            Self::ReboundSpeed => met.speed(),
+            Self::ImpulseRatio => met.outcome.impulse_ratio,
+            Self::TangentialRestitution => met.outcome.tangential_restitution,
+            Self::AngleOut => met.angle(),
+        }
+    }
+
+    fn axis(self) -> Axis {
+        match self {
+            Self::Restitution => Axis::new("restitution", "").range(0.0, 1.0),
+            Self::ReboundSpeed => Axis::new("rebound speed", "m/s"),
+            Self::ImpulseRatio => Axis::new("impulse ratio", ""),
+            Self::TangentialRestitution => Axis::new("tangential restitution", ""),
+            Self::AngleOut => Axis::new("angle of rebound from the surface", "°"),
+        }
+    }
+}
+
+/// Runs the subcommand.
+pub fn run(args: &Args) -> Result<(), Failure> {
+    let files = args.grid.files()?;
+    let grid = args.grid.grid(args.over, &args.case)?;
+    let mut laws = Vec::with_capacity(grid.curves.len());
+    let mut met = Vec::with_capacity(grid.curves.len() * grid.points.len());
+    for curve in &grid.curves {
+        let oblique = curve.args.motion.is_oblique() || grid.quantity() == Swept::Angle;
+        let law = curve.args.law.compile(oblique)?;
+        for point in &grid.points {
+            let motion = curve.at(grid.quantity(), *point).complete()?;
+            met.push(motion.meet(&law.wall).map_err(|e| refused(e, &motion))?);
+        }
+        laws.push(law);
+    }
+    let oblique = grid.quantity() == Swept::Angle || grid.curves.iter().any(|c| c.args.motion.is_oblique());
+    grid.show(&files, || whole(&grid, &met), || short(&grid, &met, oblique), || plot(&grid, &met, &laws, args.quantity))
+}
+
+fn float(name: &str, unit: &str, met: &[Met], get: impl Fn(&Met) -> f64) -> Column {
+    Column::float(name, unit, met.iter().map(get))
+}
+
+fn head_on(met: &[Met]) -> Vec<Column> {
+    vec![
+        Column::text("fate", met.iter().map(|m| m.outcome.fate.name())),
+        float("restitution", "", met, |m| m.outcome.restitution),
+        float("normal_speed_out", "m/s", met, |m| m.normal),
+    ]
+}
+
+fn sideways(met: &[Met]) -> Vec<Column> {
+    vec![
+        float("tangential_speed_out", "m/s", met, |m| m.tangential),
+        float("spin_out", "rad/s", met, |m| m.spin),
+        float("angle_out_deg", "", met, Met::angle),
+        float("impulse_ratio", "", met, |m| m.outcome.impulse_ratio),
+        float("tangential_restitution", "", met, |m| m.outcome.tangential_restitution),
+        Column::text("contact", met.iter().map(|m| m.outcome.contact.name())),
+    ]
+}
+
+fn doubts(met: &[Met]) -> Column {
+    Column::text("validity", met.iter().map(|m| m.outcome.validity.codes().collect::<Vec<_>>().join(" ")))
+}
+
+/// Every column, for files: the same whatever is swept.
+fn whole(grid: &Grid, met: &[Met]) -> Result<Table, Failure> {
+    let mut columns = grid.columns();
+    columns.extend(head_on(met));
+    columns.extend(sideways(met));
+    let names = carom::Energy::default().named().map(|(name, _)| name);
+    for (n, name) in names.into_iter().enumerate() {
+        columns.push(float(&format!("energy_{name}"), "", met, |m| m.outcome.energy.named()[n].1));
+    }
+    columns.push(doubts(met));
+    Ok(Table::new(columns)?)
+}
+
+/// The columns that say something, for the terminal.
+fn short(grid: &Grid, met: &[Met], oblique: bool) -> Result<Table, Failure> {
+    let mut columns = grid.columns();
+    columns.extend(head_on(met));
+    if oblique {
+        columns.extend(sideways(met));
+    }
+    if met.iter().any(|m| !m.outcome.validity.is_empty()) {
+        columns.push(doubts(met));
+    }
+    Ok(Table::new(columns)?)
+}
+
+fn plot(grid: &Grid, met: &[Met], laws: &[Law], shown: Shown) -> Plot {
+    let values: Vec<f64> = met.iter().map(|m| shown.of(m)).collect();
+    let plot = grid.draw(Plot::new(title(grid, laws), grid.axis(), shown.axis()), &values);
+    references(grid, laws, shown).into_iter().fold(plot, Plot::reference)
+}
+
+/// What all curves have in common.
+fn title(grid: &Grid, laws: &[Law]) -> String {
+    let (Some(law), Some(curve)) = (laws.first(), grid.curves.first()) else { return String::new() };
+    let motion = &curve.args.motion;
+    let mut parts = Vec::new();
+    if !grid.varies("wall-law") {
+        match (grid.varies("sphere"), grid.varies("surface")) {
+            (false, false) => parts.extend(law.materials()),
+            (false, true) => parts.extend(law.sphere().map(|s| format!("{s} spheres"))),
+            (true, false) => parts.extend(law.surface().map(|s| format!("on {s}"))),
+            (true, true) => {}
+        }
+        if !grid.varies("law") {
+            parts.push(law.normal_name());
+        }
+    }
+    if let (false, Some(d)) = (grid.varies("diameter") || grid.quantity() == Swept::Diameter, motion.diameter) {
+        parts.push(plotted(d, "m"));
+    }
+    if let (false, Some(v)) = (grid.varies("speed") || grid.quantity() == Swept::Speed, motion.speed) {
+        parts.push(quantity(v, "m/s"));
+    }
+    if let (false, Some(angle)) = (grid.varies("angle") || grid.quantity() == Swept::Angle, motion.angle) {
+        parts.push(format!("{angle}°"));
+    }
+    parts.join(", ")
+}
+
+/// Capture and yield velocity of a single head-on curve over speed.
+fn references(grid: &Grid, laws: &[Law], shown: Shown) -> Vec<Reference> {
+    let ([law], [curve]) = (laws, &grid.curves[..]) else { return Vec::new() };
+    let head_on = curve.args.motion.angle.is_none_or(|a| a == 90.0);
+    let (Swept::Speed, true, Shown::Restitution, Some(diameter)) =
+        (grid.quantity(), head_on, shown, curve.args.motion.diameter)
+    else {
+        return Vec::new();
+    };
+    let capture = law.wall.window(diameter, None).ok().flatten().map(|w| (w.capture_velocity, "capture velocity"));
+    let yielding = law.wall.yield_velocity(diameter, None).ok().flatten().map(|v| (v, "yield velocity"));
+    [capture, yielding]
+        .into_iter()
+        .flatten()
+        .filter(|(v, _)| *v > 0.0)
+        .map(|(v, l)| Reference::vertical(v, l))
+        .collect()
+}
