@@ -25,6 +25,11 @@ pub fn moments(law: &Law, motion: &Motion) -> Result<Vec<Moment>, Failure> {
     let size = Size { kappa: 1.0 / (1.0 + radius * curvature), ..Size::flat(radius) };
     let friction = match law.wall.tangential() {
         Tangential::Friction { friction, .. } => *friction,
+        Tangential::MicroSlip(_) => {
+            return Err(Failure::input(
+                "--history follows the slip with rolling alone (Eqs 26-28): write --tangential rolling",
+            ));
+        }
         Tangential::Restitution(_) => 0.0,
     };
     let (normal, tangential) = motion.components();

@@ -4,9 +4,7 @@ use std::f64::consts::PI;
 use std::path::PathBuf;
 
 use carom_report::plot::{Dash, Marker, Reference};
-use carom_report::{
-    Axis, Color, Column, HeatMap, Plot, Report, ReportError, Series, Table, plot::ColorMap,
-};
+use carom_report::{Axis, Color, Column, HeatMap, Plot, Report, ReportError, Series, Table, plot::ColorMap};
 
 fn main() -> Result<(), ReportError> {
     let folder = PathBuf::from(std::env::args().nth(1).unwrap_or_else(|| ".".to_owned()));
@@ -33,13 +31,8 @@ fn main() -> Result<(), ReportError> {
         Column::text("fate", ["capture", "rebound", "rebound", "rebound"]),
     ])?;
     print!("{}", table.to_text());
-    report
-        .section("Table")
-        .paragraph("As in the terminal.")
-        .table(&table, "Restitution.");
-    report
-        .preformatted("[law.glass]\nnormal = \"ea\"")
-        .list(["one", "two"]);
+    report.section("Table").paragraph("As in the terminal.").table(&table, "Restitution.");
+    report.preformatted("[law.glass]\nnormal = \"ea\"").list(["one", "two"]);
     report.write(folder.join("report.html"))
 }
 
@@ -50,18 +43,12 @@ fn curve(v: f64, damping: f64) -> f64 {
 }
 
 fn speeds(n: usize) -> Vec<f64> {
-    (0..n)
-        .map(|i| 0.05 * 600_f64.powf(i as f64 / (n - 1) as f64))
-        .collect()
+    (0..n).map(|i| 0.05 * 600_f64.powf(i as f64 / (n - 1) as f64)).collect()
 }
 
 fn restitution() -> Plot {
     let v = speeds(300);
-    let e = |damping: f64| {
-        v.iter()
-            .map(move |v| curve(*v, damping))
-            .collect::<Vec<_>>()
-    };
+    let e = |damping: f64| v.iter().map(move |v| curve(*v, damping)).collect::<Vec<_>>();
     Plot::new(
         "Copper on glass, 90 µm",
         Axis::new("incident normal speed", "m/s").log(),
@@ -78,22 +65,9 @@ fn restitution() -> Plot {
 
 fn scatter() -> Plot {
     let x: Vec<f64> = (1..=14).map(|i| f64::from(i) * 6.0).collect();
-    let y = |shift: f64| {
-        x.iter()
-            .map(move |a| 0.6 + shift + 0.003 * a + 0.05 * (a * 1.7).sin())
-            .collect::<Vec<_>>()
-    };
-    let marks = [
-        Marker::Circle,
-        Marker::Square,
-        Marker::Triangle,
-        Marker::Cross,
-    ];
-    let mut plot = Plot::new(
-        "Restitution by angle",
-        Axis::new("incidence angle", "deg"),
-        Axis::new("e", ""),
-    );
+    let y = |shift: f64| x.iter().map(move |a| 0.6 + shift + 0.003 * a + 0.05 * (a * 1.7).sin()).collect::<Vec<_>>();
+    let marks = [Marker::Circle, Marker::Square, Marker::Triangle, Marker::Cross];
+    let mut plot = Plot::new("Restitution by angle", Axis::new("incidence angle", "deg"), Axis::new("e", ""));
     for (i, mark) in marks.into_iter().enumerate() {
         let series = Series::points(format!("set {}", i + 1), x.clone(), y(-0.15 * i as f64))
             .marker(mark)
@@ -104,13 +78,9 @@ fn scatter() -> Plot {
 }
 
 fn trajectories() -> Plot {
-    let mut plot = Plot::new(
-        "Trajectories",
-        Axis::new("x", "m"),
-        Axis::scaled("y", "mm", 1e3),
-    )
-    .wall([0.0, 0.0], [0.4, 0.0])
-    .wall([0.0, 0.06], [0.4, 0.06]);
+    let mut plot = Plot::new("Trajectories", Axis::new("x", "m"), Axis::scaled("y", "mm", 1e3))
+        .wall([0.0, 0.0], [0.4, 0.0])
+        .wall([0.0, 0.06], [0.4, 0.06]);
     for start in 0..5 {
         let (mut x, mut y, mut vy) = (0.0, 0.02 + 0.007 * f64::from(start), 0.0);
         let (mut xs, mut ys) = (vec![], vec![]);
@@ -137,16 +107,8 @@ fn histogram() -> Plot {
         let z = ((e[0] + 2.5e-6) / 70e-6_f64).ln() / 0.3;
         (1000.0 * (-0.5 * z * z).exp()).round()
     });
-    Plot::new(
-        "Captured by diameter",
-        Axis::scaled("diameter", "µm", 1e6),
-        Axis::new("particles", ""),
-    )
-    .with(Series::bars(
-        "captured",
-        edges.clone(),
-        heights.collect::<Vec<_>>(),
-    ))
+    Plot::new("Captured by diameter", Axis::scaled("diameter", "µm", 1e6), Axis::new("particles", ""))
+        .with(Series::bars("captured", edges.clone(), heights.collect::<Vec<_>>()))
 }
 
 fn deposit() -> HeatMap {
@@ -155,9 +117,7 @@ fn deposit() -> HeatMap {
     let values: Vec<f64> = (0..24 * 60)
         .map(|i| {
             let (a, b) = (f64::from(i % 60) / 60.0, f64::from(i / 60) / 24.0);
-            let v = 1e-9
-                * (-8.0 * (a - 0.4).powi(2) - 10.0 * (b - 0.5).powi(2)).exp()
-                * (1.2 + (9.0 * a).sin());
+            let v = 1e-9 * (-8.0 * (a - 0.4).powi(2) - 10.0 * (b - 0.5).powi(2)).exp() * (1.2 + (9.0 * a).sin());
             if v < 2e-11 { f64::NAN } else { v }
         })
         .collect();
@@ -171,12 +131,9 @@ fn deposit() -> HeatMap {
 }
 
 fn sensitivity() -> HeatMap {
-    let d: Vec<f64> = (0..=40)
-        .map(|i| 1e-6 * 100_f64.powf(f64::from(i) / 40.0))
-        .collect();
+    let d: Vec<f64> = (0..=40).map(|i| 1e-6 * 100_f64.powf(f64::from(i) / 40.0)).collect();
     let angle: Vec<f64> = (0..=30).map(|i| f64::from(i) * 3.0).collect();
-    let values = (0..30 * 40)
-        .map(|i| (PI * f64::from(i % 40) / 40.0).cos() * (0.05 * f64::from(i / 40)).exp() - 0.3);
+    let values = (0..30 * 40).map(|i| (PI * f64::from(i % 40) / 40.0).cos() * (0.05 * f64::from(i / 40)).exp() - 0.3);
     HeatMap::new(
         "Sensitivity",
         Axis::scaled("diameter", "µm", 1e6).log(),

@@ -58,16 +58,10 @@ impl ReportError {
             Self::Parquet(e) => io::Error::other(e),
             other => return other,
         };
-        Self::File {
-            path: path.to_path_buf(),
-            source,
-        }
+        Self::File { path: path.to_path_buf(), source }
     }
 
     pub(crate) fn draw(what: &str, reason: impl ToString) -> Self {
-        Self::Draw {
-            what: what.to_owned(),
-            reason: reason.to_string(),
-        }
+        Self::Draw { what: what.to_owned(), reason: reason.to_string() }
     }
 }

@@ -26,24 +26,14 @@ impl NewFile {
         // tempfile's own default is private to the user; a result is a plain file under the umask.
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-        let file = builder
-            .tempfile_in(folder)
-            .map_err(|source| ReportError::File {
-                path: target.to_path_buf(),
-                source,
-            })?;
-        Ok(Self {
-            target: target.to_path_buf(),
-            inner: BufWriter::new(file),
-        })
+        let file =
+            builder.tempfile_in(folder).map_err(|source| ReportError::File { path: target.to_path_buf(), source })?;
+        Ok(Self { target: target.to_path_buf(), inner: BufWriter::new(file) })
     }
 
     pub(crate) fn commit(self) -> Result<(), ReportError> {
         let Self { target, inner } = self;
-        let fail = |source| ReportError::File {
-            path: target.clone(),
-            source,
-        };
+        let fail = |source| ReportError::File { path: target.clone(), source };
         let file = inner.into_inner().map_err(|e| fail(e.into_error()))?;
         file.persist(&target).map_err(|e| fail(e.error))?;
         Ok(())
@@ -63,15 +53,11 @@ impl Write for NewFile {
 /// Writes `bytes` to `target`, whole or not at all.
 pub(crate) fn write_whole(target: &Path, bytes: &[u8]) -> Result<(), ReportError> {
     let mut file = NewFile::create(target)?;
-    file.write_all(bytes)
-        .map_err(|e| ReportError::from(e).at(target))?;
+    file.write_all(bytes).map_err(|e| ReportError::from(e).at(target))?;
     file.commit()
 }
 
 /// The path's extension in lower case, empty when there is none.
 pub(crate) fn extension(path: &Path) -> String {
-    path.extension()
-        .and_then(OsStr::to_str)
-        .unwrap_or_default()
-        .to_ascii_lowercase()
+    path.extension().and_then(OsStr::to_str).unwrap_or_default().to_ascii_lowercase()
 }

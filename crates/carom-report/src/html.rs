@@ -37,10 +37,7 @@ pub struct Report {
 impl Report {
     /// A report with a title and nothing else yet.
     pub fn new(title: impl Into<String>) -> Self {
-        Self {
-            title: title.into(),
-            body: String::new(),
-        }
+        Self { title: title.into(), body: String::new() }
     }
 
     fn block(&mut self, tag: &str, text: &str) -> &mut Self {
@@ -93,27 +90,15 @@ impl Report {
     /// A table with all its rows, headings with units, numbers to six digits.
     pub fn table(&mut self, table: &Table, caption: &str) -> &mut Self {
         let cells: Vec<_> = table.columns().iter().map(column_cells).collect();
-        let _ = writeln!(
-            self.body,
-            "<div class=\"wide\"><table>\n<caption>{}</caption>\n<thead>",
-            escape(caption)
-        );
+        let _ = writeln!(self.body, "<div class=\"wide\"><table>\n<caption>{}</caption>\n<thead>", escape(caption));
         for row in 0..=table.rows() {
             self.body.push_str("<tr>");
             for (column, cells) in table.columns().iter().zip(&cells) {
                 let tag = if row == 0 { "th" } else { "td" };
-                let class = if matches!(column.values, Values::Text(_)) {
-                    " class=\"text\""
-                } else {
-                    ""
-                };
+                let class = if matches!(column.values, Values::Text(_)) { " class=\"text\"" } else { "" };
                 let _ = write!(self.body, "<{tag}{class}>{}</{tag}>", escape(&cells[row]));
             }
-            self.body.push_str(if row == 0 {
-                "</tr></thead>\n<tbody>\n"
-            } else {
-                "</tr>\n"
-            });
+            self.body.push_str(if row == 0 { "</tr></thead>\n<tbody>\n" } else { "</tr>\n" });
         }
         self.body.push_str("</tbody>\n</table></div>\n");
         self
@@ -139,10 +124,7 @@ impl Report {
     pub fn write(&self, path: impl AsRef<Path>) -> Result<(), ReportError> {
         let path = path.as_ref();
         if file::extension(path) != "html" {
-            return Err(ReportError::UnknownExtension {
-                path: path.to_path_buf(),
-                known: ".html",
-            });
+            return Err(ReportError::UnknownExtension { path: path.to_path_buf(), known: ".html" });
         }
         file::write_whole(path, self.html().as_bytes())
     }

@@ -187,10 +187,7 @@ impl ImageFormat {
         match file::extension(path.as_ref()).as_str() {
             "svg" => Ok(Self::Svg),
             "png" => Ok(Self::Png),
-            _ => Err(ReportError::UnknownExtension {
-                path: path.as_ref().to_path_buf(),
-                known: ".svg and .png",
-            }),
+            _ => Err(ReportError::UnknownExtension { path: path.as_ref().to_path_buf(), known: ".svg and .png" }),
         }
     }
 }

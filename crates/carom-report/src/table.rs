@@ -42,11 +42,7 @@ pub struct Field {
 impl Field {
     /// A field of the given kind.
     pub fn new(name: impl Into<String>, unit: impl Into<String>, kind: Kind) -> Self {
-        Self {
-            name: name.into(),
-            unit: unit.into(),
-            kind,
-        }
+        Self { name: name.into(), unit: unit.into(), kind }
     }
 
     /// A real-valued field.
@@ -72,11 +68,7 @@ impl Field {
     /// The name with its unit, as a person reads it: "speed (m/s)".
     #[must_use]
     pub fn heading(&self) -> String {
-        if self.unit.is_empty() {
-            self.name.clone()
-        } else {
-            format!("{} ({})", self.name, self.unit)
-        }
+        if self.unit.is_empty() { self.name.clone() } else { format!("{} ({})", self.name, self.unit) }
     }
 }
 
@@ -101,48 +93,24 @@ impl Column {
         unit: impl Into<String>,
         values: impl IntoIterator<Item = T>,
     ) -> Self {
-        let values = values
-            .into_iter()
-            .map(|v| v.into().unwrap_or(f64::NAN))
-            .collect();
-        Self {
-            name: name.into(),
-            unit: unit.into(),
-            values: Values::Float(values),
-        }
+        let values = values.into_iter().map(|v| v.into().unwrap_or(f64::NAN)).collect();
+        Self { name: name.into(), unit: unit.into(), values: Values::Float(values) }
     }
 
     /// A column of signed whole numbers, each an `i64` or an `Option<i64>`.
-    pub fn integer<T: Into<Option<i64>>>(
-        name: impl Into<String>,
-        values: impl IntoIterator<Item = T>,
-    ) -> Self {
+    pub fn integer<T: Into<Option<i64>>>(name: impl Into<String>, values: impl IntoIterator<Item = T>) -> Self {
         let values = values.into_iter().map(Into::into).collect();
-        Self {
-            name: name.into(),
-            unit: String::new(),
-            values: Values::Integer(values),
-        }
+        Self { name: name.into(), unit: String::new(), values: Values::Integer(values) }
     }
 
     /// A column of whole numbers from zero, each a `u64` or an `Option<u64>`.
-    pub fn count<T: Into<Option<u64>>>(
-        name: impl Into<String>,
-        values: impl IntoIterator<Item = T>,
-    ) -> Self {
+    pub fn count<T: Into<Option<u64>>>(name: impl Into<String>, values: impl IntoIterator<Item = T>) -> Self {
         let values = values.into_iter().map(Into::into).collect();
-        Self {
-            name: name.into(),
-            unit: String::new(),
-            values: Values::Count(values),
-        }
+        Self { name: name.into(), unit: String::new(), values: Values::Count(values) }
     }
 
     /// A column of text.
-    pub fn text<T: Into<Arc<str>>>(
-        name: impl Into<String>,
-        values: impl IntoIterator<Item = T>,
-    ) -> Self {
+    pub fn text<T: Into<Arc<str>>>(name: impl Into<String>, values: impl IntoIterator<Item = T>) -> Self {
         Self::optional_text(name, values.into_iter().map(Some))
     }
 
@@ -152,11 +120,7 @@ impl Column {
         values: impl IntoIterator<Item = Option<T>>,
     ) -> Self {
         let values = values.into_iter().map(|v| v.map(Into::into)).collect();
-        Self {
-            name: name.into(),
-            unit: String::new(),
-            values: Values::Text(values),
-        }
+        Self { name: name.into(), unit: String::new(), values: Values::Text(values) }
     }
 
     /// The column's name, unit and kind.
@@ -190,10 +154,7 @@ impl Table {
                 )));
             }
             if columns[..i].iter().any(|other| other.name == column.name) {
-                return Err(ReportError::Mismatch(format!(
-                    "two columns are named \"{}\"",
-                    column.name
-                )));
+                return Err(ReportError::Mismatch(format!("two columns are named \"{}\"", column.name)));
             }
         }
         Ok(Self { columns })
@@ -243,9 +204,7 @@ impl Table {
         let row: Vec<Cell> = row.into_iter().collect();
         if row.len() != self.columns.len() {
             let (got, want) = (row.len(), self.columns.len());
-            return Err(ReportError::Mismatch(format!(
-                "a row of {got} cells for {want} columns"
-            )));
+            return Err(ReportError::Mismatch(format!("a row of {got} cells for {want} columns")));
         }
         let before = self.rows();
         for (i, cell) in row.into_iter().enumerate() {
@@ -279,9 +238,7 @@ impl Table {
     }
 
     fn truncate(&mut self, rows: usize) {
-        self.columns
-            .iter_mut()
-            .for_each(|c| c.values.truncate(rows));
+        self.columns.iter_mut().for_each(|c| c.values.truncate(rows));
     }
 
     /// Writes the table to `path` as CSV, Parquet or JSON, told by its extension.
@@ -328,9 +285,7 @@ impl Table {
 fn check_schema(schema: &[Field], table: &Table) -> Result<(), ReportError> {
     if table.columns.len() != schema.len() {
         let (got, want) = (table.columns.len(), schema.len());
-        return Err(ReportError::Mismatch(format!(
-            "a table of {got} columns where {want} were announced"
-        )));
+        return Err(ReportError::Mismatch(format!("a table of {got} columns where {want} were announced")));
     }
     for (field, column) in schema.iter().zip(&table.columns) {
         let got = column.field();

@@ -8,27 +8,11 @@ use resvg::tiny_skia::{Pixmap, PremultipliedColorU8};
 
 fn sample() -> Plot {
     let x = [0.1, 0.3, 1.0, 3.0, 10.0];
-    Plot::new(
-        "Copper <on> glass",
-        Axis::new("speed", "m/s").log(),
-        Axis::new("restitution", "").range(0.0, 1.0),
-    )
-    .with(Series::line("model", x, [0.2, 0.8, 0.9, 0.92, 0.85]))
-    .with(
-        Series::points("measured", x, [0.3, 0.7, 0.9, 0.9, 0.8])
-            .deviation([0.05; 5])
-            .marker(Marker::Square),
-    )
-    .with(
-        Series::band(
-            "5–95 %",
-            x,
-            [0.1, 0.6, 0.8, 0.9, 0.8],
-            [0.4, 0.9, 0.95, 0.95, 0.9],
-        )
-        .color(Color::SKY),
-    )
-    .reference(Reference::vertical(0.2, "capture velocity"))
+    Plot::new("Copper <on> glass", Axis::new("speed", "m/s").log(), Axis::new("restitution", "").range(0.0, 1.0))
+        .with(Series::line("model", x, [0.2, 0.8, 0.9, 0.92, 0.85]))
+        .with(Series::points("measured", x, [0.3, 0.7, 0.9, 0.9, 0.8]).deviation([0.05; 5]).marker(Marker::Square))
+        .with(Series::band("5–95 %", x, [0.1, 0.6, 0.8, 0.9, 0.8], [0.4, 0.9, 0.95, 0.95, 0.9]).color(Color::SKY))
+        .reference(Reference::vertical(0.2, "capture velocity"))
 }
 
 /// How often an element with this start is in the document.
@@ -50,11 +34,7 @@ fn texts(svg: &str) -> Vec<String> {
 fn svg_holds_its_labels_and_is_the_same_every_time() {
     let svg = sample().svg().unwrap();
     assert_eq!(svg, sample().svg().unwrap());
-    assert!(
-        svg.starts_with("<svg width=\"900\" height=\"560\""),
-        "{}",
-        &svg[..120]
-    );
+    assert!(svg.starts_with("<svg width=\"900\" height=\"560\""), "{}", &svg[..120]);
     let texts = texts(&svg);
     for label in [
         "Copper &lt;on&gt; glass",
@@ -74,38 +54,23 @@ fn svg_holds_its_labels_and_is_the_same_every_time() {
 
 #[test]
 fn png_shows_data_in_their_colours_and_text_without_any_system_font() {
-    let small = |title: &str| Plot {
-        size: (360, 240),
-        title: title.to_owned(),
-        legend: Legend::Hidden,
-        ..sample()
-    };
+    let small = |title: &str| Plot { size: (360, 240), title: title.to_owned(), legend: Legend::Hidden, ..sample() };
     let png = small("Copper").png().unwrap();
     let pixels = Pixmap::decode_png(&png).unwrap();
     assert_eq!((pixels.width(), pixels.height()), (720, 480));
     let painted = |red, green, blue| {
-        let colour =
-            |p: &&PremultipliedColorU8| (p.red(), p.green(), p.blue()) == (red, green, blue);
+        let colour = |p: &&PremultipliedColorU8| (p.red(), p.green(), p.blue()) == (red, green, blue);
         pixels.pixels().iter().filter(colour).count()
     };
     assert!(painted(0, 114, 178) > 500, "the line");
     assert!(painted(213, 94, 0) > 300, "the marks");
     assert!(painted(255, 255, 255) > 100_000, "the ground");
     // The title is the only thing in its strip above the frame.
-    let dark = |pixels: &Pixmap| {
-        pixels.pixels()[..720 * 90]
-            .iter()
-            .filter(|p| p.red() < 100)
-            .count()
-    };
+    let dark = |pixels: &Pixmap| pixels.pixels()[..720 * 90].iter().filter(|p| p.red() < 100).count();
     assert!(dark(&pixels) > 300);
     let untitled = small(" ").png().unwrap();
     assert_eq!(dark(&Pixmap::decode_png(&untitled).unwrap()), 0);
-    assert_eq!(
-        untitled,
-        small(" ").png().unwrap(),
-        "the same bytes every time"
-    );
+    assert_eq!(untitled, small(" ").png().unwrap(), "the same bytes every time");
 }
 
 #[test]
@@ -113,22 +78,13 @@ fn extension_chooses_the_format_and_others_are_refused_before_anything_is_drawn(
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name);
     sample().write(path("a.svg")).unwrap();
-    let small = Plot {
-        size: (90, 60),
-        ..sample()
-    };
+    let small = Plot { size: (90, 60), ..sample() };
     small.write(path("a.PNG")).unwrap();
-    assert_eq!(
-        fs::read_to_string(path("a.svg")).unwrap(),
-        sample().svg().unwrap()
-    );
+    assert_eq!(fs::read_to_string(path("a.svg")).unwrap(), sample().svg().unwrap());
     assert_eq!(&fs::read(path("a.PNG")).unwrap()[..4], b"\x89PNG");
     let error = sample().write(path("a.pdf")).unwrap_err();
     assert!(matches!(error, ReportError::UnknownExtension { .. }));
-    assert!(
-        error.to_string().ends_with("known are .svg and .png"),
-        "{error}"
-    );
+    assert!(error.to_string().ends_with("known are .svg and .png"), "{error}");
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);
 }
 
@@ -142,13 +98,7 @@ fn log_axes_leave_out_what_is_not_positive() {
     };
     assert_eq!(count(&plot([1.0, 2.0, 3.0, 4.0, 5.0]), "<circle"), 5);
     assert_eq!(count(&plot([-1.0, 0.0, 3.0, 4.0, 5.0]), "<circle"), 3);
-    assert_eq!(
-        count(
-            &plot([f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -0.0, 5.0]),
-            "<circle"
-        ),
-        1
-    );
+    assert_eq!(count(&plot([f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -0.0, 5.0]), "<circle"), 1);
     assert_eq!(count(&plot([0.0; 5]), "<circle"), 0);
 }
 
@@ -186,11 +136,7 @@ fn bars_and_error_bars_are_drawn_on_both_scales() {
         assert_eq!(count(&bars.svg().unwrap(), "<polygon"), 2, "{y:?}");
         let points = |interval: bool| {
             let series = Series::points("", [1.0, 2.0], [2.0, 3.0]).color(Color(1, 2, 3));
-            let series = if interval {
-                series.interval([1.0, -1.0], [3.0, 4.0])
-            } else {
-                series
-            };
+            let series = if interval { series.interval([1.0, -1.0], [3.0, 4.0]) } else { series };
             let plot = Plot::new("", Axis::new("", ""), y.clone()).with(series);
             count(&plot.svg().unwrap(), "stroke=\"#010203\"")
         };
@@ -204,20 +150,9 @@ fn bars_and_error_bars_are_drawn_on_both_scales() {
 fn empty_and_odd_input_draws_without_panic() {
     let log = || Axis::new("", "").log();
     let linear = || Axis::new("", "");
-    let values: [&[f64]; 6] = [
-        &[],
-        &[1.0],
-        &[f64::NAN, f64::NAN],
-        &[f64::INFINITY, 1.0],
-        &[f64::MAX, f64::MIN],
-        &[5e-324, 1e-320],
-    ];
-    for (x, y) in [
-        (linear(), linear()),
-        (log(), linear()),
-        (linear(), log()),
-        (log().range(-1.0, 0.0), log()),
-    ] {
+    let values: [&[f64]; 6] =
+        [&[], &[1.0], &[f64::NAN, f64::NAN], &[f64::INFINITY, 1.0], &[f64::MAX, f64::MIN], &[5e-324, 1e-320]];
+    for (x, y) in [(linear(), linear()), (log(), linear()), (linear(), log()), (log().range(-1.0, 0.0), log())] {
         for v in values {
             let v = v.to_vec();
             for legend in [Legend::Auto, Legend::Outside, Legend::LowerLeft] {
@@ -225,11 +160,7 @@ fn empty_and_odd_input_draws_without_panic() {
                     .with(Series::line("a", v.clone(), v.clone()).dashed())
                     .with(Series::points("b", v.clone(), v.clone()).deviation(v.clone()))
                     .with(Series::band("c", v.clone(), v.clone(), v.clone()))
-                    .with(Series::bars(
-                        "d",
-                        v.clone(),
-                        v.iter().skip(1).copied().collect::<Vec<_>>(),
-                    ))
+                    .with(Series::bars("d", v.clone(), v.iter().skip(1).copied().collect::<Vec<_>>()))
                     .reference(Reference::horizontal(f64::NAN, "nan"))
                     .reference(Reference::vertical(0.0, "zero"))
                     .wall([f64::NAN, 0.0], [1.0, 1.0])
@@ -242,64 +173,32 @@ fn empty_and_odd_input_draws_without_panic() {
     for size in [(0, 0), (1, 1), (50, 2000)] {
         Plot { size, ..sample() }.svg().unwrap();
     }
-    Plot {
-        size: (0, 0),
-        ..sample()
-    }
-    .png()
-    .unwrap();
+    Plot { size: (0, 0), ..sample() }.png().unwrap();
 }
 
 #[test]
 fn arrays_of_different_lengths_are_refused_by_name() {
-    let plot = |series| {
-        Plot::new("", Axis::new("", ""), Axis::new("", ""))
-            .with(series)
-            .svg()
-    };
+    let plot = |series| Plot::new("", Axis::new("", ""), Axis::new("", "")).with(series).svg();
     for (series, what) in [
         (Series::line("a", [1.0, 2.0], [1.0]), "1 ordinates where 2"),
-        (
-            Series::points("a", [1.0, 2.0], [1.0, 2.0]).interval([1.0], [2.0]),
-            "1 error bars where 2",
-        ),
-        (
-            Series::band("a", [1.0], [1.0], [1.0, 2.0]),
-            "2 upper ordinates where 1",
-        ),
-        (
-            Series::bars("a", [1.0, 2.0], [1.0, 2.0]),
-            "2 heights where 1",
-        ),
+        (Series::points("a", [1.0, 2.0], [1.0, 2.0]).interval([1.0], [2.0]), "1 error bars where 2"),
+        (Series::band("a", [1.0], [1.0], [1.0, 2.0]), "2 upper ordinates where 1"),
+        (Series::bars("a", [1.0, 2.0], [1.0, 2.0]), "2 heights where 1"),
     ] {
         let message = plot(series).unwrap_err().to_string();
-        assert!(
-            message.contains("series \"a\"") && message.contains(what),
-            "{message}"
-        );
+        assert!(message.contains("series \"a\"") && message.contains(what), "{message}");
     }
 }
 
 #[test]
 fn lines_are_cut_at_the_frame() {
-    let plot = Plot::new(
-        "",
-        Axis::new("", "").range(0.0, 1.0),
-        Axis::new("", "").range(0.0, 1.0),
-    )
-    .with(Series::line("", [-1e9, 1e9], [-1e9, 1e9]).color(Color(1, 2, 3)));
+    let plot = Plot::new("", Axis::new("", "").range(0.0, 1.0), Axis::new("", "").range(0.0, 1.0))
+        .with(Series::line("", [-1e9, 1e9], [-1e9, 1e9]).color(Color(1, 2, 3)));
     let svg = plot.svg().unwrap();
     let line = svg.lines().find(|l| l.contains("#010203")).unwrap();
     let points = line.split("points=\"").nth(1).unwrap();
-    for number in points
-        .trim_end_matches(" \"/>")
-        .split([',', ' '])
-        .filter(|n| !n.is_empty())
-    {
-        assert!(
-            (0.0..=9000.0).contains(&number.parse::<f64>().unwrap()),
-            "{line}"
-        );
+    for number in points.trim_end_matches(" \"/>").split([',', ' ']).filter(|n| !n.is_empty()) {
+        assert!((0.0..=9000.0).contains(&number.parse::<f64>().unwrap()), "{line}");
     }
 }
 
@@ -307,14 +206,7 @@ fn lines_are_cut_at_the_frame() {
 fn equal_aspect_makes_a_circle_round() {
     let angle = (0..=72).map(|i| f64::from(i) * 5.0_f64.to_radians());
     let plot = Plot::new("", Axis::new("", ""), Axis::new("", ""))
-        .with(
-            Series::line(
-                "",
-                angle.clone().map(f64::cos),
-                angle.map(|a| 3.0 + a.sin()),
-            )
-            .color(Color(1, 2, 3)),
-        )
+        .with(Series::line("", angle.clone().map(f64::cos), angle.map(|a| 3.0 + a.sin())).color(Color(1, 2, 3)))
         .equal_aspect();
     let svg = plot.svg().unwrap();
     let line = svg.lines().find(|l| l.contains("#010203")).unwrap();
@@ -327,103 +219,59 @@ fn equal_aspect_makes_a_circle_round() {
         .map(|(x, y)| (x.parse().unwrap(), y.parse().unwrap()))
         .collect();
     let extent = |pick: fn(&(f64, f64)) -> f64| {
-        let (low, high) = points
-            .iter()
-            .map(pick)
-            .fold((f64::MAX, f64::MIN), |(l, h), v| (l.min(v), h.max(v)));
+        let (low, high) = points.iter().map(pick).fold((f64::MAX, f64::MIN), |(l, h), v| (l.min(v), h.max(v)));
         high - low
     };
     let (width, height) = (extent(|p| p.0), extent(|p| p.1));
-    assert!(
-        (width - height).abs() <= 2.0 && width > 3000.0,
-        "{width} {height}"
-    );
+    assert!((width - height).abs() <= 2.0 && width > 3000.0, "{width} {height}");
 }
 
 #[test]
 fn automatic_legend_takes_a_corner_free_of_data_else_the_outside() {
     let frame = |series: Series, legend| {
-        Plot::new(
-            "",
-            Axis::new("", "").range(0.0, 1.0),
-            Axis::new("", "").range(0.0, 1.0),
-        )
-        .with(series)
-        .legend(legend)
-        .svg()
-        .unwrap()
+        Plot::new("", Axis::new("", "").range(0.0, 1.0), Axis::new("", "").range(0.0, 1.0))
+            .with(series)
+            .legend(legend)
+            .svg()
+            .unwrap()
     };
     let rising = || Series::line("a", [0.0, 1.0], [0.0, 1.0]);
-    assert_eq!(
-        frame(rising(), Legend::Auto),
-        frame(rising(), Legend::UpperLeft)
-    );
+    assert_eq!(frame(rising(), Legend::Auto), frame(rising(), Legend::UpperLeft));
     let falling = || Series::line("a", [0.0, 1.0], [1.0, 0.0]);
-    assert_eq!(
-        frame(falling(), Legend::Auto),
-        frame(falling(), Legend::UpperRight)
-    );
+    assert_eq!(frame(falling(), Legend::Auto), frame(falling(), Legend::UpperRight));
     let everywhere = || Series::band("a", [0.0, 1.0], [0.0, 0.0], [1.0, 1.0]);
-    assert_eq!(
-        frame(everywhere(), Legend::Auto),
-        frame(everywhere(), Legend::Outside)
-    );
+    assert_eq!(frame(everywhere(), Legend::Auto), frame(everywhere(), Legend::Outside));
     assert!(!texts(&frame(rising(), Legend::Hidden)).contains(&"a".to_owned()));
 }
 
 #[test]
 fn heat_map_colours_cells_by_value() {
     let map = |values: [f64; 4]| {
-        HeatMap::new(
-            "m",
-            Axis::new("x", "m"),
-            Axis::new("y", "m"),
-            Axis::scaled("mass", "mg", 1e6),
+        HeatMap::new("m", Axis::new("x", "m"), Axis::new("y", "m"), Axis::scaled("mass", "mg", 1e6)).cells(
+            [0.0, 1.0, 2.0],
+            [0.0, 1.0, 2.0],
+            values,
         )
-        .cells([0.0, 1.0, 2.0], [0.0, 1.0, 2.0], values)
     };
     let svg = map([0.0, 1e-6, f64::NAN, 2e-6]).svg().unwrap();
     assert_eq!(svg, map([0.0, 1e-6, f64::NAN, 2e-6]).svg().unwrap());
     assert!(svg.contains("#E1E1E1"), "a cell without value is grey");
     assert!(texts(&svg).contains(&"mass (mg)".to_owned()));
-    assert!(
-        !map([0.0, 1e-6, 1e-6, 2e-6])
-            .svg()
-            .unwrap()
-            .contains("#E1E1E1")
-    );
+    assert!(!map([0.0, 1e-6, 1e-6, 2e-6]).svg().unwrap().contains("#E1E1E1"));
     // The lowest value is viridis' dark end, as is the colour bar's foot.
     assert!(count(&svg, "fill=\"#440154\"") >= 1);
-    let diverging = map([-1e-6, 0.0, 0.0, 0.5e-6])
-        .colors(ColorMap::Diverging)
-        .svg()
-        .unwrap();
+    let diverging = map([-1e-6, 0.0, 0.0, 0.5e-6]).colors(ColorMap::Diverging).svg().unwrap();
     assert!(diverging.contains("#0072B2") && diverging.contains("#F7F7F7"));
-    let message = HeatMap {
-        values: vec![1.0],
-        ..map([0.0; 4])
-    }
-    .svg()
-    .unwrap_err()
-    .to_string();
+    let message = HeatMap { values: vec![1.0], ..map([0.0; 4]) }.svg().unwrap_err().to_string();
     assert_eq!(message, "heat map \"m\": 1 values for 2 × 2 cells");
-    let empty = HeatMap::new(
-        "",
-        Axis::new("", "").log(),
-        Axis::new("", ""),
-        Axis::new("", "").log(),
-    );
+    let empty = HeatMap::new("", Axis::new("", "").log(), Axis::new("", ""), Axis::new("", "").log());
     empty.svg().unwrap();
 }
 
 #[test]
 fn report_escapes_text_and_asks_for_nothing_outside() {
     let mut report = Report::new("<script>alert('a & b')</script>");
-    report
-        .section("S \"q\"")
-        .paragraph("1 < 2 & 3 > 2")
-        .list(["<i>"])
-        .preformatted("a<b");
+    report.section("S \"q\"").paragraph("1 < 2 & 3 > 2").list(["<i>"]).preformatted("a<b");
     report.figure(&sample().svg().unwrap(), "caption \"with\" <quotes>");
     let html = report.html();
     assert!(!html.contains("<script") && !html.contains("<i>"));

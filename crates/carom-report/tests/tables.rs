@@ -8,43 +8,16 @@ use parquet::basic::Compression;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field as Read;
 
-const NUMBERS: [f64; 7] = [
-    0.1 + 0.2,
-    1.0e-300,
-    90.0e-6,
-    -0.0,
-    1.7976931348623157e308,
-    f64::NAN,
-    1.0 / 3.0,
-];
+const NUMBERS: [f64; 7] = [0.1 + 0.2, 1.0e-300, 90.0e-6, -0.0, 1.7976931348623157e308, f64::NAN, 1.0 / 3.0];
 
 fn sample() -> Table {
     Table::new([
-        Column::count(
-            "particle",
-            [
-                Some(0),
-                Some(u64::MAX),
-                None,
-                Some(3),
-                Some(4),
-                Some(5),
-                Some(6),
-            ],
-        ),
+        Column::count("particle", [Some(0), Some(u64::MAX), None, Some(3), Some(4), Some(5), Some(6)]),
         Column::integer("shift", [-1, i64::MIN, i64::MAX, 0, 1, 2, 3]),
         Column::float("time", "s", NUMBERS),
         Column::optional_text(
             "wall",
-            [
-                Some("floor"),
-                None,
-                Some("a, \"b\""),
-                Some("zwei\nZeilen"),
-                Some("µ"),
-                Some("floor"),
-                Some("é"),
-            ],
+            [Some("floor"), None, Some("a, \"b\""), Some("zwei\nZeilen"), Some("µ"), Some("floor"), Some("é")],
         ),
     ])
     .unwrap()
@@ -56,10 +29,7 @@ fn csv_reads_back_bit_for_bit() {
     let path = folder.path().join("table.CSV");
     sample().write(&path).unwrap();
     let mut reader = csv::Reader::from_path(&path).unwrap();
-    assert_eq!(
-        reader.headers().unwrap(),
-        vec!["particle", "shift", "time", "wall"]
-    );
+    assert_eq!(reader.headers().unwrap(), vec!["particle", "shift", "time", "wall"]);
     let rows: Vec<_> = reader.records().map(Result::unwrap).collect();
     assert_eq!(rows.len(), NUMBERS.len());
     for (row, number) in rows.iter().zip(NUMBERS) {
@@ -69,17 +39,11 @@ fn csv_reads_back_bit_for_bit() {
             assert_eq!(row[2].parse::<f64>().unwrap().to_bits(), number.to_bits());
         }
     }
-    assert_eq!(
-        &rows[0][2], "0.30000000000000004",
-        "all the digits that tell it from 0.3"
-    );
+    assert_eq!(&rows[0][2], "0.30000000000000004", "all the digits that tell it from 0.3");
     assert_eq!(&rows[2][2], "9e-5", "and no more");
     assert_eq!((&rows[1][0], &rows[2][0]), ("18446744073709551615", ""));
     assert_eq!(&rows[1][1], "-9223372036854775808");
-    assert_eq!(
-        (&rows[1][3], &rows[2][3], &rows[3][3]),
-        ("", "a, \"b\"", "zwei\nZeilen")
-    );
+    assert_eq!((&rows[1][3], &rows[2][3], &rows[3][3]), ("", "a, \"b\"", "zwei\nZeilen"));
 }
 
 #[test]
@@ -87,8 +51,7 @@ fn json_reads_back_bit_for_bit() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("table.json");
     sample().write(&path).unwrap();
-    let rows: Vec<serde_json::Value> =
-        serde_json::from_str(&fs::read_to_string(&path).unwrap()).unwrap();
+    let rows: Vec<serde_json::Value> = serde_json::from_str(&fs::read_to_string(&path).unwrap()).unwrap();
     for (row, number) in rows.iter().zip(NUMBERS) {
         match row["time"].as_f64() {
             Some(read) => assert_eq!(read.to_bits(), number.to_bits()),
@@ -117,22 +80,10 @@ fn parquet_reads_back_typed_with_nulls_and_units() {
     sample().write(&path).unwrap();
     let reader = SerializedFileReader::new(fs::File::open(&path).unwrap()).unwrap();
     let file = reader.metadata().file_metadata();
-    let units = file
-        .key_value_metadata()
-        .unwrap()
-        .iter()
-        .find(|kv| kv.key == "units")
-        .unwrap();
+    let units = file.key_value_metadata().unwrap().iter().find(|kv| kv.key == "units").unwrap();
     assert_eq!(units.value.as_deref(), Some("{\"time\":\"s\"}"));
-    assert_eq!(
-        reader.metadata().row_group(0).column(2).compression(),
-        Compression::SNAPPY
-    );
-    let rows: Vec<_> = reader
-        .get_row_iter(None)
-        .unwrap()
-        .map(Result::unwrap)
-        .collect();
+    assert_eq!(reader.metadata().row_group(0).column(2).compression(), Compression::SNAPPY);
+    let rows: Vec<_> = reader.get_row_iter(None).unwrap().map(Result::unwrap).collect();
     assert_eq!(rows.len(), NUMBERS.len());
     for (row, number) in rows.iter().zip(NUMBERS) {
         match row.get_column_iter().nth(2).unwrap().1 {
@@ -140,8 +91,7 @@ fn parquet_reads_back_typed_with_nulls_and_units() {
             other => assert!(*other == Read::Null && number.is_nan(), "{other:?}"),
         }
     }
-    let cell =
-        |row: usize, column: usize| rows[row].get_column_iter().nth(column).unwrap().1.clone();
+    let cell = |row: usize, column: usize| rows[row].get_column_iter().nth(column).unwrap().1.clone();
     assert_eq!(cell(1, 0), Read::ULong(u64::MAX));
     assert_eq!((cell(2, 0), cell(1, 3)), (Read::Null, Read::Null));
     assert_eq!(cell(1, 1), Read::Long(i64::MIN));
@@ -153,9 +103,7 @@ fn a_long_stream_becomes_several_row_groups_and_loses_nothing() {
     let folder = tempfile::tempdir().unwrap();
     let schema = vec![Field::count("particle"), Field::float("x", "m")];
     let paths = ["long.parquet", "long.csv"].map(|name| folder.path().join(name));
-    let mut writers = paths
-        .each_ref()
-        .map(|path| TableWriter::create(path, schema.clone()).unwrap());
+    let mut writers = paths.each_ref().map(|path| TableWriter::create(path, schema.clone()).unwrap());
     let mut block = Table::with_schema(&schema).unwrap();
     let (blocks, rows) = (200_u64, 1000_u64);
     for b in 0..blocks {
@@ -172,19 +120,14 @@ fn a_long_stream_becomes_several_row_groups_and_loses_nothing() {
     let sum: u64 = reader
         .get_row_iter(None)
         .unwrap()
-        .map(
-            |row| match row.unwrap().get_column_iter().next().unwrap().1 {
-                Read::ULong(n) => *n,
-                other => panic!("{other:?}"),
-            },
-        )
+        .map(|row| match row.unwrap().get_column_iter().next().unwrap().1 {
+            Read::ULong(n) => *n,
+            other => panic!("{other:?}"),
+        })
         .sum();
     let n = blocks * rows;
     assert_eq!(sum, n * (n - 1) / 2);
-    assert_eq!(
-        csv::Reader::from_path(&paths[1]).unwrap().records().count() as u64,
-        n
-    );
+    assert_eq!(csv::Reader::from_path(&paths[1]).unwrap().records().count() as u64, n);
 }
 
 #[test]
@@ -197,10 +140,7 @@ fn nothing_is_at_the_path_before_the_end_and_nothing_beside_it_after() {
     writer.write(&sample()).unwrap();
     assert_eq!(fs::read_to_string(&path).unwrap(), "old");
     drop(writer);
-    assert_eq!(
-        (fs::read_to_string(&path).unwrap().as_str(), names()),
-        ("old", 1)
-    );
+    assert_eq!((fs::read_to_string(&path).unwrap().as_str(), names()), ("old", 1));
     sample().write(&path).unwrap();
     assert!(fs::read_to_string(&path).unwrap().starts_with("particle,"));
     assert_eq!(names(), 1);
@@ -224,9 +164,7 @@ fn an_unknown_extension_names_the_known_ones() {
         let message = Format::from_path(path).unwrap_err().to_string();
         assert_eq!(
             message,
-            format!(
-                "{path}: cannot tell the format from the extension; known are .csv, .parquet and .json"
-            )
+            format!("{path}: cannot tell the format from the extension; known are .csv, .parquet and .json")
         );
     }
     assert_eq!(Format::from_path("a.b/c.Parquet").unwrap(), Format::Parquet);
@@ -253,25 +191,18 @@ fn a_stream_that_fails_is_an_error_in_every_format() {
         }
     }
     for format in [Format::Csv, Format::Json, Format::Parquet] {
-        let result =
-            TableWriter::to_stream(Full, format, sample().schema()).and_then(|mut writer| {
-                writer.write(&sample())?;
-                writer.finish_stream().map(|_| ())
-            });
-        assert!(
-            result.unwrap_err().to_string().contains("disk full"),
-            "{format:?}"
-        );
+        let result = TableWriter::to_stream(Full, format, sample().schema()).and_then(|mut writer| {
+            writer.write(&sample())?;
+            writer.finish_stream().map(|_| ())
+        });
+        assert!(result.unwrap_err().to_string().contains("disk full"), "{format:?}");
     }
 }
 
 #[test]
 fn what_does_not_fit_together_is_refused() {
     let message = |result: Result<Table, ReportError>| result.unwrap_err().to_string();
-    let short = Table::new([
-        Column::float("a", "", [1.0, 2.0]),
-        Column::float("b", "", [1.0]),
-    ]);
+    let short = Table::new([Column::float("a", "", [1.0, 2.0]), Column::float("b", "", [1.0])]);
     assert_eq!(message(short), "column \"b\" has 1 rows, \"a\" has 2");
     let twice = Table::new([Column::float("a", "", [1.0]), Column::float("a", "", [1.0])]);
     assert_eq!(message(twice), "two columns are named \"a\"");
@@ -284,14 +215,10 @@ fn what_does_not_fit_together_is_refused() {
     table.push([Cell::Missing, Cell::from("floor")]).unwrap();
     assert_eq!(table.rows(), 1);
 
-    let mut writer =
-        TableWriter::to_stream(Vec::new(), Format::Csv, vec![Field::float("x", "m")]).unwrap();
+    let mut writer = TableWriter::to_stream(Vec::new(), Format::Csv, vec![Field::float("x", "m")]).unwrap();
     let other = Table::new([Column::float("x", "mm", [1.0])]).unwrap();
     let error = writer.write(&other).unwrap_err().to_string();
-    assert!(
-        error.contains("\"mm\"") && error.contains("\"m\""),
-        "{error}"
-    );
+    assert!(error.contains("\"mm\"") && error.contains("\"m\""), "{error}");
 }
 
 #[test]

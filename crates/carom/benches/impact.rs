@@ -1,9 +1,8 @@
 //! ns per impact on one core: batches of 4 096 rows in cache, one scalar call, the resolved equation.
 //!
-//! `CAROM_ISA` cannot be set: the instruction set is chosen at run time. To measure AVX2 on an AVX-512 machine, mask the feature
-//! as `docs/benchmarks.md` describes.
+//! Batches run on every instruction set the machine has; how to read the numbers: `docs/benchmarks.md`.
 
-use carom::batch::{Incidence, Rebound};
+use carom::batch::{Incidence, InstructionSet, Rebound};
 use carom::material::Library;
 use carom::{Impact, WallLaw};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
@@ -42,11 +41,14 @@ fn batches(c: &mut Criterion) {
         ("ea", format!("normal = \"ea\"\n{DAMPED}")),
         ("eap", "normal = \"eap\"\n".to_owned()),
         ("thornton-ning", "normal = [\"plastic-thornton-ning\", \"adhesion-work\"]\n".to_owned()),
+        ("ea, micro-slip", format!("normal = \"ea\"\n{DAMPED}tangential = \"micro-slip\"\n")),
     ] {
         let law = law(&text);
-        group.bench_function(name, |b| {
-            b.iter(|| law.impact_batch(black_box(&incidence), &mut Rebound::new(&mut n, &mut t, &mut w)));
-        });
+        for set in InstructionSet::available() {
+            group.bench_function(format!("{name}/{set:?}"), |b| {
+                b.iter(|| law.impact_batch_on(set, black_box(&incidence), &mut Rebound::new(&mut n, &mut t, &mut w)));
+            });
+        }
     }
     group.finish();
 }
@@ -58,6 +60,7 @@ fn scalar(c: &mut Criterion) {
     for (name, text) in [
         ("ea", format!("normal = \"ea\"\n{DAMPED}")),
         ("eap", "normal = \"eap\"\n".to_owned()),
+        ("ea, micro-slip", format!("normal = \"ea\"\n{DAMPED}tangential = \"micro-slip\"\n")),
         ("constant", "normal = \"constant\"\nrestitution = 0.9\n".to_owned()),
         ("resolved", format!("normal = \"resolved\"\n{DAMPED}")),
     ] {

@@ -73,12 +73,62 @@ pub enum BatchError {
     },
 }
 
+/// A way to run the loops of a batch. All give the same bits; only the speed differs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum InstructionSet {
+    /// Eight lanes (x86-64 with AVX-512 F, DQ, VL and FMA).
+    Avx512,
+    /// Four lanes (x86-64 with AVX2 and FMA).
+    Avx2,
+    /// What the crate was compiled for.
+    Portable,
+}
+
+impl InstructionSet {
+    /// Those this machine has, best first; the first one is what [`WallLaw::impact_batch`] uses.
+    pub fn available() -> impl Iterator<Item = Self> {
+        [Self::Avx512, Self::Avx2, Self::Portable].into_iter().filter(|set| set.is_here())
+    }
+
+    fn is_here(self) -> bool {
+        #[cfg(target_arch = "x86_64")]
+        {
+            use std::arch::is_x86_feature_detected as has;
+            let fused = has!("avx2") && has!("fma");
+            match self {
+                Self::Avx512 => fused && has!("avx512f") && has!("avx512dq") && has!("avx512vl"),
+                Self::Avx2 => fused,
+                Self::Portable => true,
+            }
+        }
+        #[cfg(not(target_arch = "x86_64"))]
+        {
+            self == Self::Portable
+        }
+    }
+}
+
 impl WallLaw {
     /// Many impacts at once; see the [module](crate::batch).
     ///
     /// # Errors
     /// Columns of different lengths; rows that are no impact (all others are done, and the first bad one is named).
     pub fn impact_batch(&self, incidence: &Incidence, rebound: &mut Rebound) -> Result<(), BatchError> {
+        let best = InstructionSet::available().next().unwrap_or(InstructionSet::Portable);
+        self.impact_batch_on(best, incidence, rebound)
+    }
+
+    /// As [`WallLaw::impact_batch`], on a given instruction set (for tests and benchmarks); one this machine lacks runs as
+    /// [`InstructionSet::Portable`].
+    ///
+    /// # Errors
+    /// As [`WallLaw::impact_batch`].
+    pub fn impact_batch_on(
+        &self,
+        set: InstructionSet,
+        incidence: &Incidence,
+        rebound: &mut Rebound,
+    ) -> Result<(), BatchError> {
         let n = incidence.normal.len();
         let ins = [incidence.tangential.len(), incidence.spin.len(), incidence.diameter.len()];
         let outs = [rebound.normal.len(), rebound.tangential.len(), rebound.spin.len()];
@@ -90,7 +140,7 @@ impl WallLaw {
         if ins.into_iter().chain(outs).chain(optional.into_iter().flatten()).any(|length| length != n) {
             return Err(BatchError::Lengths);
         }
-        let all_fine = kernel::run(self, incidence, rebound);
+        let all_fine = kernel::run(&kernel::Machine::new(set), self, incidence, rebound);
         if let Some(energy) = rebound.energy.as_deref_mut() {
             for (i, out) in energy.iter_mut().enumerate() {
                 *out = self.planar(incidence, i).map_or(Energy::default(), |o| o.energy);

@@ -91,6 +91,22 @@ impl Pair {
         Ok(0.75 * self.stiffness()?)
     }
 
+    /// Stiffness ratio κ = G*/E* of tangential to normal deformation, from the materials alone: an override of the stiffness
+    /// scales both. See [`crate::tangential::micro_slip`].
+    ///
+    /// # Errors
+    /// A material without Young's modulus or Poisson's ratio.
+    pub fn stiffness_ratio(&self) -> Result<f64, SpecError> {
+        let (mut normal, mut tangential) = (0.0, 0.0);
+        for m in [&self.sphere, &self.surface] {
+            let [e, nu] = elasticity(m, "")?;
+            normal += (1.0 - nu * nu) / e;
+            // (2 − ν)/(4G) with G = E/(2(1 + ν))
+            tangential += (2.0 - nu) * (1.0 + nu) / (2.0 * e);
+        }
+        Ok(normal / tangential)
+    }
+
     /// Work of adhesion w, J/m² (Eqs 17, 18).
     ///
     /// # Errors
@@ -135,13 +151,16 @@ impl Pair {
 /// # Errors
 /// No Young's modulus or no Poisson's ratio.
 pub fn compliance(m: &Material) -> Result<f64, SpecError> {
-    let e = m
-        .young_modulus
-        .ok_or_else(|| missing(m, "Young's modulus", "young_modulus (E)", ", or the pair's stiffness"))?;
-    let nu = m
-        .poisson_ratio
-        .ok_or_else(|| missing(m, "Poisson's ratio", "poisson_ratio (nu)", ", or the pair's stiffness"))?;
+    let [e, nu] = elasticity(m, ", or the pair's stiffness")?;
     Ok((1.0 - nu * nu) / (PI * e))
+}
+
+/// Young's modulus and Poisson's ratio; `instead` is what else would do.
+fn elasticity(m: &Material, instead: &str) -> Result<[f64; 2], SpecError> {
+    Ok([
+        m.young_modulus.ok_or_else(|| missing(m, "Young's modulus", "young_modulus (E)", instead))?,
+        m.poisson_ratio.ok_or_else(|| missing(m, "Poisson's ratio", "poisson_ratio (nu)", instead))?,
+    ])
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@
 //! sphere = "copper"              # a material's name, or a table of properties
 //! surface = "glass"
 //! normal = "ea"                  # ea | eap | thornton-ning | tabor | constant | by-angle | resolved, or a list of losses
-//! tangential = "rolling"         # rolling | walton | constant | by-angle
+//! tangential = "rolling"         # rolling | walton | micro-slip | constant | by-angle
 //! friction = 0.2
 //! roughness_factor = 0.8         # C_R; or roughness = "1 nm"
 //! adhesion_damping = "1.3 s/m"   # C_A
@@ -19,9 +19,11 @@
 //! assert_eq!(error.line_column("normal = \"ea\"\nfrictoin = 0.2\n"), Some((2, 1)));
 //! ```
 
+mod check;
 mod compile;
 mod curve;
 mod normal;
+mod tangential;
 mod values;
 
 pub use curve::CurveSpec;

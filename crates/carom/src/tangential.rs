@@ -9,10 +9,13 @@
 //! rebound's tangential speed of the centre outright ([`constant`]) and leaves the spin alone.
 
 pub mod constant;
+pub mod micro_slip;
 pub mod rolling;
 pub mod walton;
 
 use crate::normal::empirical::Curve;
+use crate::wall::NormalResponse;
+use micro_slip::MicroSlip;
 
 /// How the contact ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -50,14 +53,33 @@ pub enum Tangential {
         /// Walton's β₀, 0 for rigid-body rolling.
         beta: f64,
     },
+    /// Partial slip of an elastic contact.
+    MicroSlip(Box<MicroSlip>),
     /// e_t of the centre, constant or by angle; the spin stays.
     Restitution(Curve),
 }
 
-/// Impulse per mass against the slip, m/s: (P, sliding to the end?). `normal_impulse` is (1 + e)v_n.
-#[inline(always)]
-pub(crate) fn friction_impulse(friction: f64, beta: f64, slip: f64, normal_impulse: f64) -> (f64, bool) {
-    let stick = walton::stick_impulse(beta, slip);
-    let cap = friction * normal_impulse;
-    (if cap < stick { cap } else { stick }, cap < stick)
+/// A law of friction, as a type of its own so that a batch's loop holds no branch on its kind.
+pub(crate) trait FrictionLaw {
+    /// How a contact ends that does not slide to the end.
+    const HELD: Contact;
+    /// Impulse per mass against a slip speed, m/s: (P, sliding to the end?). `normal_impulse` is (1 + e)v_n.
+    fn impulse(&self, slip: f64, normal_impulse: f64, response: &NormalResponse) -> (f64, bool);
+}
+
+/// Rolling and Walton's law.
+pub(crate) struct Coulomb {
+    pub friction: f64,
+    pub beta: f64,
+}
+
+impl FrictionLaw for Coulomb {
+    const HELD: Contact = Contact::Rolling;
+
+    #[inline(always)]
+    fn impulse(&self, slip: f64, normal_impulse: f64, response: &NormalResponse) -> (f64, bool) {
+        let stick = walton::stick_impulse(self.beta, slip);
+        let cap = self.friction * response.friction_share * normal_impulse;
+        (if cap < stick { cap } else { stick }, cap < stick)
+    }
 }

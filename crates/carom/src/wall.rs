@@ -5,7 +5,7 @@ use crate::normal::empirical::Curve;
 use crate::normal::{Ledger, Losses, Size};
 use crate::pair::Pair;
 use crate::resolved::Resolved;
-use crate::tangential::{Contact, Tangential, friction_impulse};
+use crate::tangential::{Contact, Coulomb, FrictionLaw, Tangential};
 use crate::validity::Validity;
 
 mod checks;
@@ -222,28 +222,9 @@ impl WallLaw {
         let normal_impulse = (1.0 + response.e) * s.v_n;
         match &self.tangential {
             Tangential::Friction { friction, beta } => {
-                let lever = cross(&s.spin, &s.normal);
-                let slip = add_scaled(&s.tangent, -s.radius, &lever);
-                let speed = norm(&slip);
-                if speed == 0.0 {
-                    return Slid {
-                        tangent: s.tangent,
-                        spin: s.spin,
-                        ratio: 0.0,
-                        friction: 0.0,
-                        contact: Contact::None,
-                    };
-                }
-                let (p, slides) = friction_impulse(*friction * response.friction_share, *beta, speed, normal_impulse);
-                let direction = [slip[0] / speed, slip[1] / speed, slip[2] / speed];
-                Slid {
-                    tangent: add_scaled(&s.tangent, -p, &direction),
-                    spin: add_scaled(&s.spin, p * (2.5 / s.radius), &cross(&s.normal, &direction)),
-                    ratio: p / normal_impulse,
-                    friction: p * 3.5f64.mul_add(-p, 2.0 * speed),
-                    contact: if slides { Contact::Sliding } else { Contact::Rolling },
-                }
+                s.rub(&Coulomb { friction: *friction, beta: *beta }, normal_impulse, response)
             }
+            Tangential::MicroSlip(law) => s.rub(law.as_ref(), normal_impulse, response),
             Tangential::Restitution(curve) => {
                 let v_t = s.tangent2.sqrt();
                 let e_t = curve.at(s.v_n, v_t, -1.0, 1.0);
@@ -274,6 +255,27 @@ struct Sliding {
     v_n: f64,
     spin: Vec3,
     radius: f64,
+}
+
+impl Sliding {
+    #[inline(always)]
+    fn rub<F: FrictionLaw>(&self, law: &F, normal_impulse: f64, response: &NormalResponse) -> Slid {
+        let lever = cross(&self.spin, &self.normal);
+        let slip = add_scaled(&self.tangent, -self.radius, &lever);
+        let speed = norm(&slip);
+        if speed == 0.0 {
+            return Slid { tangent: self.tangent, spin: self.spin, ratio: 0.0, friction: 0.0, contact: Contact::None };
+        }
+        let (p, slides) = law.impulse(speed, normal_impulse, response);
+        let direction = [slip[0] / speed, slip[1] / speed, slip[2] / speed];
+        Slid {
+            tangent: add_scaled(&self.tangent, -p, &direction),
+            spin: add_scaled(&self.spin, p * (2.5 / self.radius), &cross(&self.normal, &direction)),
+            ratio: p / normal_impulse,
+            friction: p * 3.5f64.mul_add(-p, 2.0 * speed),
+            contact: if slides { Contact::Sliding } else { F::HELD },
+        }
+    }
 }
 
 struct Slid {

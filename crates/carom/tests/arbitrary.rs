@@ -40,6 +40,7 @@ fn fragments() -> impl Strategy<Value = String> {
         "\"by-angle\"",
         "\"rolling\"",
         "\"walton\"",
+        "\"micro-slip\"",
         "0",
         "1",
         "0.5",

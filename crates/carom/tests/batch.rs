@@ -2,7 +2,7 @@
 
 mod common;
 
-use carom::batch::{BatchError, Incidence, Rebound};
+use carom::batch::{BatchError, Incidence, InstructionSet, Rebound};
 use carom::{Energy, ImpactError};
 use common::all_laws;
 
@@ -52,6 +52,25 @@ fn every_row_has_the_bits_of_a_single_impact() {
                     assert!(matches!(done, Err(BatchError::Row { .. })), "{text}: {error}");
                 }
             }
+        }
+    }
+}
+
+#[test]
+fn every_instruction_set_gives_the_same_bits() {
+    let [normal, tangential, spin, diameter] = rows(131);
+    let incidence = Incidence { normal: &normal, tangential: &tangential, spin: &spin, diameter: &diameter };
+    for (text, law) in all_laws() {
+        let mut seen: Option<Vec<u64>> = None;
+        for set in InstructionSet::available() {
+            let (mut n, mut t, mut w) = (vec![0.0; 131], vec![0.0; 131], vec![0.0; 131]);
+            let _ = law.impact_batch_on(set, &incidence, &mut Rebound::new(&mut n, &mut t, &mut w));
+            let bits: Vec<u64> =
+                n.iter().chain(&t).chain(&w).map(|v| if v.is_nan() { 0 } else { v.to_bits() }).collect();
+            if let Some(other) = &seen {
+                assert!(*other == bits, "{text}: {set:?} differs");
+            }
+            seen = Some(bits);
         }
     }
 }

@@ -28,21 +28,12 @@ pub struct Axis {
 impl Axis {
     /// A linear axis over all the data, which are in `unit`.
     pub fn new(label: impl Into<String>, unit: impl Into<String>) -> Self {
-        Self {
-            label: label.into(),
-            unit: unit.into(),
-            scale: Scale::Linear,
-            range: None,
-            factor: 1.0,
-        }
+        Self { label: label.into(), unit: unit.into(), scale: Scale::Linear, range: None, factor: 1.0 }
     }
 
     /// An axis whose numbers are the data times `factor`: `Axis::scaled("diameter", "µm", 1e6)` for data in metres.
     pub fn scaled(label: impl Into<String>, unit: impl Into<String>, factor: f64) -> Self {
-        Self {
-            factor,
-            ..Self::new(label, unit)
-        }
+        Self { factor, ..Self::new(label, unit) }
     }
 
     /// Divides the axis by equal ratios.

@@ -6,13 +6,9 @@
 use plotters::backend::SVGBackend;
 use plotters::coord::Shift;
 use plotters::drawing::{DrawingArea, IntoDrawingArea};
-use plotters::element::{
-    Circle, DashedPathElement, Drawable, PathElement, PointCollection, Polygon, Rectangle, Text,
-};
+use plotters::element::{Circle, DashedPathElement, Drawable, PathElement, PointCollection, Polygon, Rectangle, Text};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
-use plotters::style::{
-    Color as _, FontDesc, FontFamily, FontStyle, FontTransform, RGBColor, ShapeStyle, TextStyle,
-};
+use plotters::style::{Color as _, FontDesc, FontFamily, FontStyle, FontTransform, RGBColor, ShapeStyle, TextStyle};
 
 use super::{Color, Dash, Marker, font};
 use crate::ReportError;
@@ -36,17 +32,11 @@ pub(super) struct Stroke {
 
 impl Stroke {
     pub(super) fn new(color: Color, width: f64) -> Self {
-        Self {
-            color,
-            width,
-            opacity: 1.0,
-        }
+        Self { color, width, opacity: 1.0 }
     }
 
     fn style(self) -> ShapeStyle {
-        RGBColor::from(self.color)
-            .mix(self.opacity)
-            .stroke_width((self.width * FINE).round() as u32)
+        RGBColor::from(self.color).mix(self.opacity).stroke_width((self.width * FINE).round() as u32)
     }
 }
 
@@ -71,13 +61,7 @@ pub(super) struct Label<'t> {
 
 impl<'t> Label<'t> {
     pub(super) fn new(text: &'t str, size: f64, anchor: Anchor) -> Self {
-        Self {
-            text,
-            size,
-            color: Color(38, 38, 38),
-            anchor,
-            upright: false,
-        }
+        Self { text, size, color: Color(38, 38, 38), anchor, upright: false }
     }
 }
 
@@ -96,9 +80,7 @@ fn thinned(points: &[Point]) -> Vec<(i32, i32)> {
     let mut kept: Vec<Point> = Vec::with_capacity(points.len());
     for (i, point) in points.iter().enumerate() {
         let end = i + 1 == points.len();
-        let far = kept
-            .last()
-            .is_none_or(|last| (point[0] - last[0]).hypot(point[1] - last[1]) > CLOSE);
+        let far = kept.last().is_none_or(|last| (point[0] - last[0]).hypot(point[1] - last[1]) > CLOSE);
         if far || end {
             kept.push(*point);
         }
@@ -117,31 +99,16 @@ pub(super) fn document(
     draw: impl FnOnce(&Canvas<'_>) -> Result<(), ReportError>,
 ) -> Result<String, ReportError> {
     let (width, height) = (size.0.max(1), size.1.max(1));
-    let grid = (
-        width.saturating_mul(FINE as u32),
-        height.saturating_mul(FINE as u32),
-    );
+    let grid = (width.saturating_mul(FINE as u32), height.saturating_mul(FINE as u32));
     let mut svg = String::new();
     {
-        let canvas = Canvas {
-            area: SVGBackend::with_string(&mut svg, grid).into_drawing_area(),
-        };
-        canvas.rectangle(
-            [0.0, 0.0],
-            [f64::from(width), f64::from(height)],
-            Color(255, 255, 255),
-            1.0,
-        )?;
+        let canvas = Canvas { area: SVGBackend::with_string(&mut svg, grid).into_drawing_area() };
+        canvas.rectangle([0.0, 0.0], [f64::from(width), f64::from(height)], Color(255, 255, 255), 1.0)?;
         draw(&canvas)?;
-        canvas
-            .area
-            .present()
-            .map_err(|e| ReportError::draw("SVG", e))?;
+        canvas.area.present().map_err(|e| ReportError::draw("SVG", e))?;
     }
     let from = format!("<svg width=\"{}\" height=\"{}\"", grid.0, grid.1);
-    let to = format!(
-        "<svg width=\"{width}\" height=\"{height}\" stroke-linejoin=\"round\" stroke-linecap=\"round\""
-    );
+    let to = format!("<svg width=\"{width}\" height=\"{height}\" stroke-linejoin=\"round\" stroke-linecap=\"round\"");
     Ok(svg.replacen(&from, &to, 1))
 }
 
@@ -151,9 +118,7 @@ impl<'b> Canvas<'b> {
         &'e E: PointCollection<'e, (i32, i32)>,
         E: Drawable<SVGBackend<'b>>,
     {
-        self.area
-            .draw(element)
-            .map_err(|e| ReportError::draw("SVG", e))
+        self.area.draw(element).map_err(|e| ReportError::draw("SVG", e))
     }
 
     pub(super) fn line(&self, points: &[Point], stroke: Stroke) -> Result<(), ReportError> {
@@ -161,12 +126,7 @@ impl<'b> Canvas<'b> {
         self.put(&PathElement::new(path, stroke.style()))
     }
 
-    pub(super) fn dashed(
-        &self,
-        points: &[Point],
-        stroke: Stroke,
-        dash: Dash,
-    ) -> Result<(), ReportError> {
+    pub(super) fn dashed(&self, points: &[Point], stroke: Stroke, dash: Dash) -> Result<(), ReportError> {
         // The ends are round: they add a width to a dash and take it from the gap.
         let (length, gap) = match dash {
             Dash::Solid => return self.line(points, stroke),
@@ -177,55 +137,27 @@ impl<'b> Canvas<'b> {
         self.put(&DashedPathElement::new(path, length, gap, stroke.style()))
     }
 
-    pub(super) fn polygon(
-        &self,
-        points: &[Point],
-        color: Color,
-        opacity: f64,
-    ) -> Result<(), ReportError> {
+    pub(super) fn polygon(&self, points: &[Point], color: Color, opacity: f64) -> Result<(), ReportError> {
         let path: Vec<_> = points.iter().map(grid).collect();
         self.put(&Polygon::new(path, RGBColor::from(color).mix(opacity)))
     }
 
-    pub(super) fn rectangle(
-        &self,
-        from: Point,
-        to: Point,
-        color: Color,
-        opacity: f64,
-    ) -> Result<(), ReportError> {
-        self.put(&Rectangle::new(
-            [grid(&from), grid(&to)],
-            RGBColor::from(color).mix(opacity).filled(),
-        ))
+    pub(super) fn rectangle(&self, from: Point, to: Point, color: Color, opacity: f64) -> Result<(), ReportError> {
+        self.put(&Rectangle::new([grid(&from), grid(&to)], RGBColor::from(color).mix(opacity).filled()))
     }
 
-    pub(super) fn marker(
-        &self,
-        at: Point,
-        marker: Marker,
-        radius: f64,
-        color: Color,
-    ) -> Result<(), ReportError> {
+    pub(super) fn marker(&self, at: Point, marker: Marker, radius: f64, color: Color) -> Result<(), ReportError> {
         let [x, y] = at;
         let r = radius;
         match marker {
-            Marker::Circle => self.put(&Circle::new(
-                grid(&at),
-                fine(r),
-                RGBColor::from(color).filled(),
-            )),
+            Marker::Circle => self.put(&Circle::new(grid(&at), fine(r), RGBColor::from(color).filled())),
             Marker::Square => {
                 let h = 0.9 * r;
                 self.rectangle([x - h, y - h], [x + h, y + h], color, 1.0)
             }
             Marker::Triangle => {
                 let (w, h) = (1.2 * r, 0.65 * r);
-                self.polygon(
-                    &[[x, y - 1.3 * r], [x + w, y + h], [x - w, y + h]],
-                    color,
-                    1.0,
-                )
+                self.polygon(&[[x, y - 1.3 * r], [x + w, y + h], [x - w, y + h]], color, 1.0)
             }
             Marker::Cross => {
                 let stroke = Stroke::new(color, (0.45 * r).max(1.0));
@@ -245,27 +177,13 @@ impl<'b> Canvas<'b> {
             Anchor::Middle => HPos::Center,
             Anchor::End => HPos::Right,
         };
-        let font = FontDesc::new(
-            FontFamily::Name(font::FAMILY),
-            label.size * FINE * FONT_RATIO,
-            FontStyle::Normal,
-        );
-        let font = if label.upright {
-            font.transform(FontTransform::Rotate270)
-        } else {
-            font
-        };
+        let font = FontDesc::new(FontFamily::Name(font::FAMILY), label.size * FINE * FONT_RATIO, FontStyle::Normal);
+        let font = if label.upright { font.transform(FontTransform::Rotate270) } else { font };
         let color = RGBColor::from(label.color);
-        let style = TextStyle::from(font)
-            .color(&color)
-            .pos(Pos::new(h, VPos::Bottom));
+        let style = TextStyle::from(font).color(&color).pos(Pos::new(h, VPos::Bottom));
         // The backend lifts such text by half an ex, a quarter of the font size.
         let lift = 0.25 * label.size;
-        let at = if label.upright {
-            [at[0] + lift, at[1]]
-        } else {
-            [at[0], at[1] + lift]
-        };
+        let at = if label.upright { [at[0] + lift, at[1]] } else { [at[0], at[1] + lift] };
         self.put(&Text::new(label.text, grid(&at), style))
     }
 }

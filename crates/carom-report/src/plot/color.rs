@@ -27,15 +27,8 @@ impl Color {
 
     /// The colours of Okabe & Ito 2008 (Color Universal Design) in the order in which series take them;
     /// their yellow is left out, too faint for a line on white.
-    pub const PALETTE: [Self; 7] = [
-        Self::BLUE,
-        Self::VERMILION,
-        Self::GREEN,
-        Self::PURPLE,
-        Self::ORANGE,
-        Self::SKY,
-        Self::BLACK,
-    ];
+    pub const PALETTE: [Self; 7] =
+        [Self::BLUE, Self::VERMILION, Self::GREEN, Self::PURPLE, Self::ORANGE, Self::SKY, Self::BLACK];
 
     /// The palette's colour number `index`, round and round.
     #[must_use]
@@ -44,13 +37,8 @@ impl Color {
     }
 
     fn mix(self, other: Self, share: f64) -> Self {
-        let mix =
-            |a: u8, b: u8| (f64::from(a) + share * (f64::from(b) - f64::from(a))).round() as u8;
-        Self(
-            mix(self.0, other.0),
-            mix(self.1, other.1),
-            mix(self.2, other.2),
-        )
+        let mix = |a: u8, b: u8| (f64::from(a) + share * (f64::from(b) - f64::from(a))).round() as u8;
+        Self(mix(self.0, other.0), mix(self.1, other.1), mix(self.2, other.2))
     }
 }
 
@@ -80,11 +68,7 @@ impl ColorMap {
                 Color(red, green, blue)
             }
             Self::Diverging => {
-                let end = if share < 0.5 {
-                    Color::BLUE
-                } else {
-                    Color::VERMILION
-                };
+                let end = if share < 0.5 { Color::BLUE } else { Color::VERMILION };
                 Color(247, 247, 247).mix(end, (2.0 * share - 1.0).abs())
             }
         }

@@ -31,12 +31,7 @@ pub(super) fn plot(plot: &Plot) -> Result<String, ReportError> {
             taken = Occupied::new(plot, &frame);
             references = reference::place(&plot.references, &frame, &taken);
             let (left, top) = (frame.rect.right + 18.0, frame.rect.top);
-            legend_at = Some(Rect {
-                left,
-                top,
-                right: left + size.0,
-                bottom: top + size.1,
-            });
+            legend_at = Some(Rect { left, top, right: left + size.0, bottom: top + size.1 });
             frame.size.1 = frame.size.1.max((top + size.1).ceil() as u32 + 8);
         }
     }
@@ -54,10 +49,7 @@ pub(super) fn plot(plot: &Plot) -> Result<String, ReportError> {
         }
         frame.axes(canvas, &plot.title, &plot.x, &plot.y)?;
         for [from, to] in &plot.walls {
-            for piece in frame
-                .rect
-                .polyline([frame.point(from[0], from[1]), frame.point(to[0], to[1])])
-            {
+            for piece in frame.rect.polyline([frame.point(from[0], from[1]), frame.point(to[0], to[1])]) {
                 canvas.line(&piece, Stroke::new(WALL, 4.0))?;
             }
         }
@@ -80,10 +72,7 @@ fn colored(series: &[Series]) -> Vec<(&Series, Color)> {
 
 fn frame(plot: &Plot, right: f64) -> Frame {
     let (x, y) = extent(plot);
-    let scaled = (
-        Scaled::new(&plot.x, x, Margin::Air),
-        Scaled::new(&plot.y, y, Margin::Air),
-    );
+    let scaled = (Scaled::new(&plot.x, x, Margin::Air), Scaled::new(&plot.y, y, Margin::Air));
     let equal = plot.equal_aspect && scaled.0.is_linear() && scaled.1.is_linear();
     let mut frame = Frame::new(&plot.title, (&plot.x, &plot.y), scaled, plot.size, right);
     if equal {
@@ -141,10 +130,7 @@ pub(super) fn areas(frame: &Frame, shape: &Shape) -> Vec<Vec<Point>> {
             let (mut there, mut back) = (Vec::new(), Vec::new());
             let edges = x.iter().zip(low).zip(high).map(|((x, low), high)| {
                 let [low, high] = [low, high].map(|y| frame.y.share_or_low(*y));
-                Some((
-                    frame.place(frame.x.share(*x)?, low?),
-                    frame.place(frame.x.share(*x)?, high?),
-                ))
+                Some((frame.place(frame.x.share(*x)?, low?), frame.place(frame.x.share(*x)?, high?)))
             });
             for edge in edges.chain([None]) {
                 if let Some((low, high)) = edge {
@@ -161,10 +147,7 @@ pub(super) fn areas(frame: &Frame, shape: &Shape) -> Vec<Vec<Point>> {
                 let corners = (|| {
                     let (left, right) = (frame.x.share(edge[0])?, frame.x.share(edge[1])?);
                     let (foot, top) = (frame.y.share_or_low(0.0)?, frame.y.share_or_low(*height)?);
-                    Some(
-                        [(left, foot), (left, top), (right, top), (right, foot)]
-                            .map(|(x, y)| frame.place(x, y)),
-                    )
+                    Some([(left, foot), (left, top), (right, top), (right, foot)].map(|(x, y)| frame.place(x, y)))
                 })();
                 polygons.extend(corners.map(|c| frame.rect.polygon(&c)));
             }
@@ -175,12 +158,7 @@ pub(super) fn areas(frame: &Frame, shape: &Shape) -> Vec<Vec<Point>> {
     polygons
 }
 
-fn draw_area(
-    canvas: &Canvas<'_>,
-    frame: &Frame,
-    series: &Series,
-    color: Color,
-) -> Result<(), ReportError> {
+fn draw_area(canvas: &Canvas<'_>, frame: &Frame, series: &Series, color: Color) -> Result<(), ReportError> {
     let bars = matches!(series.shape, Shape::Bars { .. });
     for mut polygon in areas(frame, &series.shape) {
         canvas.polygon(&polygon, color, if bars { BAR } else { BAND })?;
@@ -192,24 +170,14 @@ fn draw_area(
     Ok(())
 }
 
-fn draw_series(
-    canvas: &Canvas<'_>,
-    frame: &Frame,
-    series: &Series,
-    color: Color,
-) -> Result<(), ReportError> {
+fn draw_series(canvas: &Canvas<'_>, frame: &Frame, series: &Series, color: Color) -> Result<(), ReportError> {
     match &series.shape {
         Shape::Line { x, y, dash } => {
             for piece in frame.rect.polyline(outline(frame, x, y)) {
                 canvas.dashed(&piece, Stroke::new(color, 2.0), *dash)?;
             }
         }
-        Shape::Points {
-            x,
-            y,
-            interval,
-            marker,
-        } => {
+        Shape::Points { x, y, interval, marker } => {
             for (x, (low, high)) in x.iter().zip(interval) {
                 draw_error_bar(canvas, frame, *x, (*low, *high), color)?;
             }
@@ -233,11 +201,7 @@ fn draw_markers(
         _ => 2.0,
     };
     let inside = |p: &&Point| frame.rect.grown(0.5).contains(**p);
-    points
-        .iter()
-        .flatten()
-        .filter(inside)
-        .try_for_each(|p| canvas.marker(*p, marker, radius, color))
+    points.iter().flatten().filter(inside).try_for_each(|p| canvas.marker(*p, marker, radius, color))
 }
 
 fn draw_error_bar(
@@ -247,11 +211,8 @@ fn draw_error_bar(
     (low, high): (f64, f64),
     color: Color,
 ) -> Result<(), ReportError> {
-    let (Some(x), Some(low), Some(high)) = (
-        frame.x.share(x),
-        frame.y.share_or_low(low),
-        frame.y.share_or_low(high),
-    ) else {
+    let (Some(x), Some(low), Some(high)) = (frame.x.share(x), frame.y.share_or_low(low), frame.y.share_or_low(high))
+    else {
         return Ok(());
     };
     let stroke = Stroke::new(color, 1.2);

@@ -17,10 +17,6 @@ pub(super) fn width(text: &str, size: f64) -> f64 {
     };
     let metrics = font.glyph_metrics(Size::new(size as f32), LocationRef::default());
     let map = font.charmap();
-    let advance = |c| {
-        metrics
-            .advance_width(map.map(c).unwrap_or_default())
-            .unwrap_or_default()
-    };
+    let advance = |c| metrics.advance_width(map.map(c).unwrap_or_default()).unwrap_or_default();
     text.chars().map(advance).sum::<f32>().into()
 }

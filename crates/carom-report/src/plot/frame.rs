@@ -27,11 +27,7 @@ pub(super) struct Frame {
 
 /// The widest label of some divisions.
 pub(super) fn widest(ticks: &[(f64, Tick)]) -> f64 {
-    ticks
-        .iter()
-        .filter_map(|(_, t)| t.label.as_deref())
-        .map(|l| font::width(l, TICK))
-        .fold(0.0, f64::max)
+    ticks.iter().filter_map(|(_, t)| t.label.as_deref()).map(|l| font::width(l, TICK)).fold(0.0, f64::max)
 }
 
 /// Divisions that fit a height.
@@ -64,35 +60,15 @@ impl Frame {
         let (x, y) = scaled;
         let (width, height) = (f64::from(size.0), f64::from(size.1));
         let top = if title.is_empty() { 20.0 } else { 52.0 };
-        let below = if axes.0.heading().is_empty() {
-            36.0
-        } else {
-            62.0
-        };
+        let below = if axes.0.heading().is_empty() { 36.0 } else { 62.0 };
         let bottom = (height - below).max(top + 20.0);
         let y_ticks = vertical_ticks(&y, bottom - top);
-        let beside = if axes.1.heading().is_empty() {
-            18.0
-        } else {
-            46.0
-        };
+        let beside = if axes.1.heading().is_empty() { 18.0 } else { 46.0 };
         let left = beside + widest(&y_ticks);
         let side = right.max(24.0);
         let right = (width - side).max(left + 20.0);
         let x_ticks = horizontal_ticks(&x, right - left);
-        Self {
-            size,
-            rect: Rect {
-                left,
-                top,
-                right,
-                bottom,
-            },
-            x,
-            y,
-            x_ticks,
-            y_ticks,
-        }
+        Self { size, rect: Rect { left, top, right, bottom }, x, y, x_ticks, y_ticks }
     }
 
     /// Makes lengths equal along both axes by taking height or width from the frame and the picture; an axis that
@@ -102,10 +78,8 @@ impl Frame {
         let (width, height) = (self.rect.width(), self.rect.height());
         let pixels = (width / self.x.span()).min(height / self.y.span());
         let least_width = LEAST.max(font::width(title, TITLE) - self.rect.left);
-        let new = (
-            (self.x.span() * pixels).max(least_width.min(width)),
-            (self.y.span() * pixels).max(LEAST.min(height)),
-        );
+        let new =
+            ((self.x.span() * pixels).max(least_width.min(width)), (self.y.span() * pixels).max(LEAST.min(height)));
         self.x.widen_to(new.0 / pixels);
         self.y.widen_to(new.1 / pixels);
         self.rect.right = self.rect.left + new.0;
@@ -123,33 +97,18 @@ impl Frame {
 
     /// Place of shares along the axes.
     pub(super) fn place(&self, x: f64, y: f64) -> Point {
-        [
-            self.rect.left + x * self.rect.width(),
-            self.rect.bottom - y * self.rect.height(),
-        ]
+        [self.rect.left + x * self.rect.width(), self.rect.bottom - y * self.rect.height()]
     }
 
     pub(super) fn grid(&self, canvas: &Canvas<'_>) -> Result<(), ReportError> {
         // All the fine lines first, so that none crosses over a stronger one.
         for strong in [false, true] {
-            let (color, width) = if strong {
-                (GRID, 1.0)
-            } else {
-                (FINE_GRID, 0.8)
-            };
+            let (color, width) = if strong { (GRID, 1.0) } else { (FINE_GRID, 0.8) };
             let stroke = Stroke::new(color, width);
-            for (share, _) in self
-                .x_ticks
-                .iter()
-                .filter(|(_, t)| t.label.is_some() == strong)
-            {
+            for (share, _) in self.x_ticks.iter().filter(|(_, t)| t.label.is_some() == strong) {
                 canvas.line(&[self.place(*share, 0.0), self.place(*share, 1.0)], stroke)?;
             }
-            for (share, _) in self
-                .y_ticks
-                .iter()
-                .filter(|(_, t)| t.label.is_some() == strong)
-            {
+            for (share, _) in self.y_ticks.iter().filter(|(_, t)| t.label.is_some() == strong) {
                 canvas.line(&[self.place(0.0, *share), self.place(1.0, *share)], stroke)?;
             }
         }
@@ -157,30 +116,10 @@ impl Frame {
     }
 
     /// Edges, divisions, numbers, labels and title.
-    pub(super) fn axes(
-        &self,
-        canvas: &Canvas<'_>,
-        title: &str,
-        x: &Axis,
-        y: &Axis,
-    ) -> Result<(), ReportError> {
-        let Rect {
-            left,
-            top,
-            right,
-            bottom,
-        } = self.rect;
+    pub(super) fn axes(&self, canvas: &Canvas<'_>, title: &str, x: &Axis, y: &Axis) -> Result<(), ReportError> {
+        let Rect { left, top, right, bottom } = self.rect;
         let stroke = Stroke::new(EDGE, 1.0);
-        canvas.line(
-            &[
-                [left, top],
-                [left, bottom],
-                [right, bottom],
-                [right, top],
-                [left, top],
-            ],
-            stroke,
-        )?;
+        canvas.line(&[[left, top], [left, bottom], [right, bottom], [right, top], [left, top]], stroke)?;
         for (share, tick) in &self.x_ticks {
             let [at, _] = self.place(*share, 0.0);
             let length = if tick.label.is_some() { 5.0 } else { 3.0 };
@@ -194,25 +133,13 @@ impl Frame {
             let length = if tick.label.is_some() { 5.0 } else { 3.0 };
             canvas.line(&[[left - length, at], [left, at]], stroke)?;
             if let Some(text) = &tick.label {
-                canvas.text(
-                    [left - 9.0, at + 0.36 * TICK],
-                    Label::new(text, TICK, Anchor::End),
-                )?;
+                canvas.text([left - 9.0, at + 0.36 * TICK], Label::new(text, TICK, Anchor::End))?;
             }
         }
         let middle = self.place(0.5, 0.5);
-        canvas.text(
-            [middle[0], bottom + 46.0],
-            Label::new(&x.heading(), LABEL, Anchor::Middle),
-        )?;
+        canvas.text([middle[0], bottom + 46.0], Label::new(&x.heading(), LABEL, Anchor::Middle))?;
         let heading = y.heading();
-        canvas.text(
-            [22.0, middle[1]],
-            Label {
-                upright: true,
-                ..Label::new(&heading, LABEL, Anchor::Middle)
-            },
-        )?;
+        canvas.text([22.0, middle[1]], Label { upright: true, ..Label::new(&heading, LABEL, Anchor::Middle) })?;
         // Over the frame's middle where that fits, else within the picture.
         let half = 0.5 * font::width(title, TITLE) + 8.0;
         let at = middle[0].min(f64::from(self.size.0) - half).max(half);

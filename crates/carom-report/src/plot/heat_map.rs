@@ -89,10 +89,7 @@ impl HeatMap {
     /// # Errors
     /// [`ReportError::Mismatch`] where the number of values does not fit the edges.
     pub fn svg(&self) -> Result<String, ReportError> {
-        let (columns, rows) = (
-            self.x_edges.len().saturating_sub(1),
-            self.y_edges.len().saturating_sub(1),
-        );
+        let (columns, rows) = (self.x_edges.len().saturating_sub(1), self.y_edges.len().saturating_sub(1));
         if self.values.len() != columns * rows {
             let got = self.values.len();
             return Err(ReportError::Mismatch(format!(
@@ -100,24 +97,13 @@ impl HeatMap {
                 self.title
             )));
         }
-        let margin = if self.colors == ColorMap::Diverging {
-            Margin::Symmetric
-        } else {
-            Margin::None
-        };
+        let margin = if self.colors == ColorMap::Diverging { Margin::Symmetric } else { Margin::None };
         let value = Scaled::new(&self.value, self.values.iter().copied(), margin);
         let x = Scaled::new(&self.x, self.x_edges.iter().copied(), Margin::None);
         let y = Scaled::new(&self.y, self.y_edges.iter().copied(), Margin::None);
         let ticks = vertical_ticks(&value, f64::from(self.size.1) - 110.0);
-        let beside = 18.0
-            + BAR_WIDTH
-            + 9.0
-            + widest(&ticks)
-            + if self.value.heading().is_empty() {
-                14.0
-            } else {
-                38.0
-            };
+        let beside =
+            18.0 + BAR_WIDTH + 9.0 + widest(&ticks) + if self.value.heading().is_empty() { 14.0 } else { 38.0 };
         let frame = Frame::new(&self.title, (&self.x, &self.y), (x, y), self.size, beside);
         canvas::document(frame.size, |canvas| {
             self.draw_cells(canvas, &frame, &value)?;
@@ -126,17 +112,11 @@ impl HeatMap {
         })
     }
 
-    fn draw_cells(
-        &self,
-        canvas: &Canvas<'_>,
-        frame: &Frame,
-        value: &Scaled,
-    ) -> Result<(), ReportError> {
+    fn draw_cells(&self, canvas: &Canvas<'_>, frame: &Frame, value: &Scaled) -> Result<(), ReportError> {
         let columns = self.x_edges.len().saturating_sub(1);
         for (row, y) in self.y_edges.windows(2).enumerate() {
             for (column, x) in self.x_edges.windows(2).enumerate() {
-                let (Some(from), Some(to)) = (frame.point(x[0], y[0]), frame.point(x[1], y[1]))
-                else {
+                let (Some(from), Some(to)) = (frame.point(x[0], y[0]), frame.point(x[1], y[1])) else {
                     continue;
                 };
                 let data = self.values[row * columns + column];
@@ -155,12 +135,7 @@ impl HeatMap {
         Ok(())
     }
 
-    fn draw_bar(
-        &self,
-        canvas: &Canvas<'_>,
-        frame: &Frame,
-        ticks: &[(f64, Tick)],
-    ) -> Result<(), ReportError> {
+    fn draw_bar(&self, canvas: &Canvas<'_>, frame: &Frame, ticks: &[(f64, Tick)]) -> Result<(), ReportError> {
         let (left, top, bottom) = (frame.rect.right + 18.0, frame.rect.top, frame.rect.bottom);
         let right = left + BAR_WIDTH;
         let height = frame.rect.height();
@@ -172,36 +147,18 @@ impl HeatMap {
             canvas.rectangle([left, foot], [right, head], self.colors.at(share), 1.0)?;
         }
         let stroke = Stroke::new(Color(70, 70, 70), 1.0);
-        canvas.line(
-            &[
-                [left, top],
-                [right, top],
-                [right, bottom],
-                [left, bottom],
-                [left, top],
-            ],
-            stroke,
-        )?;
+        canvas.line(&[[left, top], [right, top], [right, bottom], [left, bottom], [left, top]], stroke)?;
         for (share, tick) in ticks {
             let at = bottom - share * height;
             let length = if tick.label.is_some() { 5.0 } else { 3.0 };
             canvas.line(&[[right, at], [right + length, at]], stroke)?;
             if let Some(text) = &tick.label {
-                canvas.text(
-                    [right + 9.0, at + 0.36 * TICK],
-                    Label::new(text, TICK, Anchor::Start),
-                )?;
+                canvas.text([right + 9.0, at + 0.36 * TICK], Label::new(text, TICK, Anchor::Start))?;
             }
         }
         let heading = self.value.heading();
         let at = [right + 9.0 + widest(ticks) + 24.0, 0.5 * (top + bottom)];
-        canvas.text(
-            at,
-            Label {
-                upright: true,
-                ..Label::new(&heading, LABEL, Anchor::Middle)
-            },
-        )
+        canvas.text(at, Label { upright: true, ..Label::new(&heading, LABEL, Anchor::Middle) })
     }
 
     /// The map as PNG bytes, two pixels for each CSS pixel.

@@ -21,20 +21,12 @@ pub struct Reference {
 impl Reference {
     /// A vertical line at `x`.
     pub fn vertical(x: f64, label: impl Into<String>) -> Self {
-        Self {
-            vertical: true,
-            value: x,
-            label: label.into(),
-        }
+        Self { vertical: true, value: x, label: label.into() }
     }
 
     /// A horizontal line at `y`.
     pub fn horizontal(y: f64, label: impl Into<String>) -> Self {
-        Self {
-            vertical: false,
-            value: y,
-            label: label.into(),
-        }
+        Self { vertical: false, value: y, label: label.into() }
     }
 }
 
@@ -47,22 +39,11 @@ pub(super) struct Placed<'p> {
 }
 
 /// The reference lines inside the frame, with their labels where they cover the least.
-pub(super) fn place<'p>(
-    references: &'p [Reference],
-    frame: &Frame,
-    taken: &Occupied,
-) -> Vec<Placed<'p>> {
+pub(super) fn place<'p>(references: &'p [Reference], frame: &Frame, taken: &Occupied) -> Vec<Placed<'p>> {
     let mut placed: Vec<Placed<'_>> = Vec::new();
     for reference in references {
-        let axis = if reference.vertical {
-            &frame.x
-        } else {
-            &frame.y
-        };
-        let Some(share) = axis
-            .share(reference.value)
-            .filter(|s| (0.0..=1.0).contains(s))
-        else {
+        let axis = if reference.vertical { &frame.x } else { &frame.y };
+        let Some(share) = axis.share(reference.value).filter(|s| (0.0..=1.0).contains(s)) else {
             continue;
         };
         let line = if reference.vertical {
@@ -70,11 +51,7 @@ pub(super) fn place<'p>(
         } else {
             [frame.place(0.0, share), frame.place(1.0, share)]
         };
-        placed.push(Placed {
-            text: &reference.label,
-            line,
-            label: None,
-        });
+        placed.push(Placed { text: &reference.label, line, label: None });
     }
     for index in 0..placed.len() {
         if placed[index].text.is_empty() {
@@ -83,23 +60,13 @@ pub(super) fn place<'p>(
         let cost = |rect: &Rect| {
             let room = rect.grown(2.0);
             let (data, areas) = taken.count(&room);
-            let labels = placed
-                .iter()
-                .filter_map(|p| p.label)
-                .filter(|other| room.overlaps(other))
-                .count();
+            let labels = placed.iter().filter_map(|p| p.label).filter(|other| room.overlaps(other)).count();
             let crosses = |p: &Placed<'_>| !room.polyline(p.line.map(Some)).is_empty();
-            let lines = placed
-                .iter()
-                .enumerate()
-                .filter(|(i, p)| *i != index && crosses(p))
-                .count();
+            let lines = placed.iter().enumerate().filter(|(i, p)| *i != index && crosses(p)).count();
             1000 * labels + 4 * data + areas + 10 * lines
         };
         // The first of the cheapest: candidates are in order of liking.
-        placed[index].label = candidates(&placed[index], &frame.rect)
-            .into_iter()
-            .min_by_key(cost);
+        placed[index].label = candidates(&placed[index], &frame.rect).into_iter().min_by_key(cost);
     }
     placed
 }
@@ -109,40 +76,19 @@ fn candidates(placed: &Placed<'_>, frame: &Rect) -> Vec<Rect> {
     let (width, height) = (font::width(placed.text, TICK) + 6.0, TICK + 5.0);
     let [from, to] = placed.line;
     let vertical = from[0] == to[0];
-    let steps = if vertical {
-        frame.height() / (height + 2.0)
-    } else {
-        frame.width() / 20.0
-    };
+    let steps = if vertical { frame.height() / (height + 2.0) } else { frame.width() / 20.0 };
     let mut rects = Vec::new();
     for step in 0..steps as usize {
         for first in [true, false] {
             let (left, top) = if vertical {
-                let left = if first {
-                    from[0] + 4.0
-                } else {
-                    from[0] - 4.0 - width
-                };
+                let left = if first { from[0] + 4.0 } else { from[0] - 4.0 - width };
                 (left, frame.top + 5.0 + step as f64 * (height + 2.0))
             } else {
-                let top = if first {
-                    from[1] - height - 2.0
-                } else {
-                    from[1] + 3.0
-                };
+                let top = if first { from[1] - height - 2.0 } else { from[1] + 3.0 };
                 (frame.right - width - 6.0 - 20.0 * step as f64, top)
             };
-            let rect = Rect {
-                left,
-                top,
-                right: left + width,
-                bottom: top + height,
-            };
-            if left > frame.left
-                && rect.right < frame.right
-                && top > frame.top
-                && rect.bottom < frame.bottom
-            {
+            let rect = Rect { left, top, right: left + width, bottom: top + height };
+            if left > frame.left && rect.right < frame.right && top > frame.top && rect.bottom < frame.bottom {
                 rects.push(rect);
             }
         }
@@ -152,23 +98,13 @@ fn candidates(placed: &Placed<'_>, frame: &Rect) -> Vec<Rect> {
 
 pub(super) fn draw_lines(canvas: &Canvas<'_>, placed: &[Placed<'_>]) -> Result<(), ReportError> {
     let stroke = Stroke::new(Color::GREY, 1.2);
-    placed
-        .iter()
-        .try_for_each(|p| canvas.dashed(&p.line, stroke, Dash::Dashed))
+    placed.iter().try_for_each(|p| canvas.dashed(&p.line, stroke, Dash::Dashed))
 }
 
 pub(super) fn draw_labels(canvas: &Canvas<'_>, placed: &[Placed<'_>]) -> Result<(), ReportError> {
     for (text, rect) in placed.iter().filter_map(|p| Some((p.text, p.label?))) {
-        canvas.rectangle(
-            [rect.left, rect.top],
-            [rect.right, rect.bottom],
-            Color(255, 255, 255),
-            0.75,
-        )?;
-        let label = Label {
-            color: Color(90, 90, 90),
-            ..Label::new(text, TICK, Anchor::Start)
-        };
+        canvas.rectangle([rect.left, rect.top], [rect.right, rect.bottom], Color(255, 255, 255), 0.75)?;
+        let label = Label { color: Color(90, 90, 90), ..Label::new(text, TICK, Anchor::Start) };
         canvas.text([rect.left + 3.0, rect.bottom - 5.0], label)?;
     }
     Ok(())

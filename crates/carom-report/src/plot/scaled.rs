@@ -26,12 +26,7 @@ pub(super) struct Scaled {
 impl Scaled {
     pub(super) fn new(axis: &Axis, data: impl IntoIterator<Item = f64>, margin: Margin) -> Self {
         let log = axis.scale == Scale::Log;
-        let mut scaled = Self {
-            log,
-            factor: axis.factor,
-            low: f64::INFINITY,
-            high: f64::NEG_INFINITY,
-        };
+        let mut scaled = Self { log, factor: axis.factor, low: f64::INFINITY, high: f64::NEG_INFINITY };
         for value in data {
             let Some(value) = scaled.inner(value) else {
                 continue;
@@ -79,16 +74,8 @@ impl Scaled {
     fn air(&mut self) {
         let (low, high) = (self.low, self.high);
         let pad = 0.05 * (high - low);
-        self.low = if !self.log && low >= 0.0 && low < 0.3 * high {
-            0.0
-        } else {
-            low - pad
-        };
-        self.high = if !self.log && high <= 0.0 && high > 0.3 * low {
-            0.0
-        } else {
-            high + pad
-        };
+        self.low = if !self.log && low >= 0.0 && low < 0.3 * high { 0.0 } else { low - pad };
+        self.high = if !self.log && high <= 0.0 && high > 0.3 * low { 0.0 } else { high + pad };
     }
 
     /// Shown value, through the logarithm; none where the axis has no place for it.
@@ -100,8 +87,7 @@ impl Scaled {
 
     /// Place of a data value: 0 at the lower end, 1 at the upper; none for what cannot be placed.
     pub(super) fn share(&self, data: f64) -> Option<f64> {
-        self.inner(data)
-            .map(|v| (v - self.low) / (self.high - self.low))
+        self.inner(data).map(|v| (v - self.low) / (self.high - self.low))
     }
 
     /// As [`Scaled::share`], with what is too low for a logarithmic axis at its lower end.
@@ -117,12 +103,8 @@ impl Scaled {
         } else {
             ticks::linear(self.low, self.high, count)
         };
-        let place =
-            |v: f64| ((if self.log { v.log10() } else { v }) - self.low) / (self.high - self.low);
-        ticks
-            .into_iter()
-            .map(|t| (place(t.value).clamp(0.0, 1.0), t))
-            .collect()
+        let place = |v: f64| ((if self.log { v.log10() } else { v }) - self.low) / (self.high - self.low);
+        ticks.into_iter().map(|t| (place(t.value).clamp(0.0, 1.0), t)).collect()
     }
 
     /// Shown length of the axis, for equal aspect.
@@ -157,18 +139,8 @@ mod tests {
         assert_eq!(ends(&linear, &[1.0, 10.0], Margin::None), (1.0, 10.0));
         assert_eq!(ends(&linear, &[2.0, 2.0], Margin::None), (1.8, 2.2));
         assert_eq!(ends(&linear, &[-1.0, 3.0], Margin::Symmetric), (-3.0, 3.0));
-        assert_eq!(
-            ends(&linear.clone().range(0.0, 1.0), &[5.0], Margin::Air),
-            (0.0, 1.0)
-        );
-        assert_eq!(
-            ends(
-                &linear.clone().log(),
-                &[-1.0, 0.0, f64::NAN, 0.1, 10.0],
-                Margin::None
-            ),
-            (-1.0, 1.0)
-        );
+        assert_eq!(ends(&linear.clone().range(0.0, 1.0), &[5.0], Margin::Air), (0.0, 1.0));
+        assert_eq!(ends(&linear.clone().log(), &[-1.0, 0.0, f64::NAN, 0.1, 10.0], Margin::None), (-1.0, 1.0));
         let (low, high) = ends(&linear.log().range(-1.0, 0.1), &[5.0], Margin::Air);
         assert!(low < high && high == -1.0, "{low} {high}");
     }

@@ -87,27 +87,12 @@ fn collect(values: impl IntoIterator<Item = f64>) -> Vec<f64> {
 
 impl Series {
     fn new(label: impl Into<String>, shape: Shape) -> Self {
-        Self {
-            label: label.into(),
-            shape,
-            color: None,
-        }
+        Self { label: label.into(), shape, color: None }
     }
 
     /// A line.
-    pub fn line(
-        label: impl Into<String>,
-        x: impl IntoIterator<Item = f64>,
-        y: impl IntoIterator<Item = f64>,
-    ) -> Self {
-        Self::new(
-            label,
-            Shape::Line {
-                x: collect(x),
-                y: collect(y),
-                dash: Dash::Solid,
-            },
-        )
+    pub fn line(label: impl Into<String>, x: impl IntoIterator<Item = f64>, y: impl IntoIterator<Item = f64>) -> Self {
+        Self::new(label, Shape::Line { x: collect(x), y: collect(y), dash: Dash::Solid })
     }
 
     /// Marks at points.
@@ -117,15 +102,7 @@ impl Series {
         y: impl IntoIterator<Item = f64>,
     ) -> Self {
         let (x, y) = (collect(x), collect(y));
-        Self::new(
-            label,
-            Shape::Points {
-                x,
-                y,
-                interval: Vec::new(),
-                marker: Marker::Circle,
-            },
-        )
+        Self::new(label, Shape::Points { x, y, interval: Vec::new(), marker: Marker::Circle })
     }
 
     /// The area between `low` and `high`.
@@ -135,14 +112,7 @@ impl Series {
         low: impl IntoIterator<Item = f64>,
         high: impl IntoIterator<Item = f64>,
     ) -> Self {
-        Self::new(
-            label,
-            Shape::Band {
-                x: collect(x),
-                low: collect(low),
-                high: collect(high),
-            },
-        )
+        Self::new(label, Shape::Band { x: collect(x), low: collect(low), high: collect(high) })
     }
 
     /// Bars of `heights` between `edges`, which are one more.
@@ -151,13 +121,7 @@ impl Series {
         edges: impl IntoIterator<Item = f64>,
         heights: impl IntoIterator<Item = f64>,
     ) -> Self {
-        Self::new(
-            label,
-            Shape::Bars {
-                edges: collect(edges),
-                heights: collect(heights),
-            },
-        )
+        Self::new(label, Shape::Bars { edges: collect(edges), heights: collect(heights) })
     }
 
     /// Gives the series a colour of its own.
@@ -199,11 +163,7 @@ impl Series {
 
     /// Error bars from `low` to `high` (a 5–95 % interval); on any shape but points nothing changes.
     #[must_use]
-    pub fn interval(
-        mut self,
-        low: impl IntoIterator<Item = f64>,
-        high: impl IntoIterator<Item = f64>,
-    ) -> Self {
+    pub fn interval(mut self, low: impl IntoIterator<Item = f64>, high: impl IntoIterator<Item = f64>) -> Self {
         if let Shape::Points { interval, .. } = &mut self.shape {
             *interval = low.into_iter().zip(high).collect();
         }
@@ -214,11 +174,7 @@ impl Series {
     #[must_use]
     pub fn deviation(mut self, deviation: impl IntoIterator<Item = f64>) -> Self {
         if let Shape::Points { y, interval, .. } = &mut self.shape {
-            *interval = y
-                .iter()
-                .zip(deviation)
-                .map(|(y, d)| (y - d, y + d))
-                .collect();
+            *interval = y.iter().zip(deviation).map(|(y, d)| (y - d, y + d)).collect();
         }
         self
     }
@@ -227,27 +183,16 @@ impl Series {
     pub(super) fn check(&self) -> Result<(), ReportError> {
         let (what, want, got) = match &self.shape {
             Shape::Line { x, y, .. } => ("ordinates", x.len(), y.len()),
-            Shape::Points { x, y, interval, .. } if interval.is_empty() => {
-                ("ordinates", x.len(), y.len())
-            }
-            Shape::Points { x, y, interval, .. } if x.len() == y.len() => {
-                ("error bars", x.len(), interval.len())
-            }
+            Shape::Points { x, y, interval, .. } if interval.is_empty() => ("ordinates", x.len(), y.len()),
+            Shape::Points { x, y, interval, .. } if x.len() == y.len() => ("error bars", x.len(), interval.len()),
             Shape::Points { x, y, .. } => ("ordinates", x.len(), y.len()),
-            Shape::Band { x, low, high } if x.len() == low.len() => {
-                ("upper ordinates", x.len(), high.len())
-            }
+            Shape::Band { x, low, high } if x.len() == low.len() => ("upper ordinates", x.len(), high.len()),
             Shape::Band { x, low, .. } => ("lower ordinates", x.len(), low.len()),
-            Shape::Bars { edges, heights } => {
-                ("heights", edges.len().saturating_sub(1), heights.len())
-            }
+            Shape::Bars { edges, heights } => ("heights", edges.len().saturating_sub(1), heights.len()),
         };
         if want == got {
             return Ok(());
         }
-        Err(ReportError::Mismatch(format!(
-            "series \"{}\": {got} {what} where {want} fit its abscissas",
-            self.label
-        )))
+        Err(ReportError::Mismatch(format!("series \"{}\": {got} {what} where {want} fit its abscissas", self.label)))
     }
 }

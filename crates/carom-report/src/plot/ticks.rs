@@ -37,10 +37,7 @@ pub(super) fn linear(low: f64, high: f64, count: usize) -> Vec<Tick> {
     while index <= last && ticks.len() < 1000 {
         // Multiples of the step, not sums, so that no rounding builds up.
         let value = decimal(index * f64::from(digit), exponent);
-        ticks.push(Tick {
-            value,
-            label: Some(linear_label(value, exponent, largest)),
-        });
+        ticks.push(Tick { value, label: Some(linear_label(value, exponent, largest)) });
         index += 1.0;
     }
     ticks
@@ -48,11 +45,7 @@ pub(super) fn linear(low: f64, high: f64, count: usize) -> Vec<Tick> {
 
 /// `mantissa` times ten to a whole power, rounded once: a division for the negative powers, which have no exact `f64`.
 fn decimal(mantissa: f64, exponent: i32) -> f64 {
-    if exponent < 0 {
-        mantissa / 10_f64.powi(-exponent)
-    } else {
-        mantissa * 10_f64.powi(exponent)
-    }
+    if exponent < 0 { mantissa / 10_f64.powi(-exponent) } else { mantissa * 10_f64.powi(exponent) }
 }
 
 fn linear_label(value: f64, step_exponent: i32, largest: f64) -> String {
@@ -81,11 +74,7 @@ pub(super) fn log(low: f64, high: f64, count: usize) -> Vec<Tick> {
     let stride = (decades / count.max(1) as f64).ceil().max(1.0) as i32;
     let inside = |v: f64| v >= low * (1.0 - 1e-9) && v <= high * (1.0 + 1e-9);
     let whole = (first..=last).filter(|e| inside(decimal(1.0, *e))).count();
-    let labelled: &[i32] = if whole < 3 && decades < 2.0 {
-        &[1, 2, 5]
-    } else {
-        &[1]
-    };
+    let labelled: &[i32] = if whole < 3 && decades < 2.0 { &[1, 2, 5] } else { &[1] };
     let plain = first >= -4 && last <= 5;
     let mut ticks = Vec::new();
     for exponent in first..=last {
@@ -97,10 +86,7 @@ pub(super) fn log(low: f64, high: f64, count: usize) -> Vec<Tick> {
             if !inside(value) || !(named || small) {
                 continue;
             }
-            ticks.push(Tick {
-                value,
-                label: named.then(|| log_label(digit, exponent, plain)),
-            });
+            ticks.push(Tick { value, label: named.then(|| log_label(digit, exponent, plain)) });
         }
     }
     if ticks.iter().filter(|t| t.label.is_some()).count() < 2 {
@@ -130,22 +116,10 @@ mod tests {
 
     #[test]
     fn linear_numbers_are_tidy() {
-        assert_eq!(
-            labels(&linear(0.0, 1.0, 5)),
-            ["0", "0.2", "0.4", "0.6", "0.8", "1.0"]
-        );
-        assert_eq!(
-            labels(&linear(-0.3, 0.3, 6)),
-            ["−0.3", "−0.2", "−0.1", "0", "0.1", "0.2", "0.3"]
-        );
-        assert_eq!(
-            labels(&linear(0.0, 3.0e-7, 3)),
-            ["0", "1×10⁻⁷", "2×10⁻⁷", "3×10⁻⁷"]
-        );
-        assert_eq!(
-            labels(&linear(0.0, 2.0e9, 4)),
-            ["0", "0.5×10⁹", "1×10⁹", "1.5×10⁹", "2×10⁹"]
-        );
+        assert_eq!(labels(&linear(0.0, 1.0, 5)), ["0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
+        assert_eq!(labels(&linear(-0.3, 0.3, 6)), ["−0.3", "−0.2", "−0.1", "0", "0.1", "0.2", "0.3"]);
+        assert_eq!(labels(&linear(0.0, 3.0e-7, 3)), ["0", "1×10⁻⁷", "2×10⁻⁷", "3×10⁻⁷"]);
+        assert_eq!(labels(&linear(0.0, 2.0e9, 4)), ["0", "0.5×10⁹", "1×10⁹", "1.5×10⁹", "2×10⁹"]);
         assert_eq!(linear(0.0, 0.6, 6)[3].value, 0.3);
     }
 
@@ -154,10 +128,7 @@ mod tests {
         assert_eq!(labels(&log(0.01, 30.0, 8)), ["0.01", "0.1", "1", "10"]);
         assert_eq!(labels(&log(1e-8, 1.0, 10))[..2], ["10⁻⁸", "10⁻⁷"]);
         assert_eq!(labels(&log(0.9, 30.0, 8)), ["1", "2", "5", "10", "20"]);
-        assert_eq!(
-            labels(&log(3.1, 4.2, 5)),
-            ["3.2", "3.4", "3.6", "3.8", "4.0", "4.2"]
-        );
+        assert_eq!(labels(&log(3.1, 4.2, 5)), ["3.2", "3.4", "3.6", "3.8", "4.0", "4.2"]);
         assert_eq!(labels(&log(1e-30, 1e30, 8)).len(), 7);
         assert!(log(1e-300, 1e300, 8).len() < 20);
         assert!(log(-1.0, 1.0, 5).is_empty());

@@ -14,10 +14,7 @@ impl<W: Write> CsvEncoder<W> {
     pub(super) fn new(stream: W, schema: &[Field]) -> Result<Self, ReportError> {
         let mut inner = csv::Writer::from_writer(stream);
         inner.write_record(schema.iter().map(|f| f.name.as_str()))?;
-        Ok(Self {
-            inner,
-            number: String::new(),
-        })
+        Ok(Self { inner, number: String::new() })
     }
 
     pub(super) fn write(&mut self, table: &Table) -> Result<(), ReportError> {
@@ -39,9 +36,7 @@ impl<W: Write> CsvEncoder<W> {
     }
 
     pub(super) fn finish(self) -> Result<W, ReportError> {
-        self.inner
-            .into_inner()
-            .map_err(|e| ReportError::Stream(e.into_error()))
+        self.inner.into_inner().map_err(|e| ReportError::Stream(e.into_error()))
     }
 }
 

@@ -13,21 +13,13 @@ pub(super) struct JsonEncoder<W: Write> {
 
 impl<W: Write> JsonEncoder<W> {
     pub(super) fn new(stream: W, schema: &[Field]) -> Result<Self, ReportError> {
-        let keys = schema
-            .iter()
-            .map(|f| serde_json::to_string(&f.name))
-            .collect::<Result<_, _>>()?;
-        Ok(Self {
-            stream,
-            keys,
-            rows: 0,
-        })
+        let keys = schema.iter().map(|f| serde_json::to_string(&f.name)).collect::<Result<_, _>>()?;
+        Ok(Self { stream, keys, rows: 0 })
     }
 
     pub(super) fn write(&mut self, table: &Table) -> Result<(), ReportError> {
         for row in 0..table.rows() {
-            self.stream
-                .write_all(if self.rows == 0 { b"[\n{" } else { b",\n{" })?;
+            self.stream.write_all(if self.rows == 0 { b"[\n{" } else { b",\n{" })?;
             for (i, (key, column)) in self.keys.iter().zip(table.columns()).enumerate() {
                 if i > 0 {
                     self.stream.write_all(b",")?;
@@ -47,8 +39,7 @@ impl<W: Write> JsonEncoder<W> {
     }
 
     pub(super) fn finish(mut self) -> Result<W, ReportError> {
-        self.stream
-            .write_all(if self.rows == 0 { b"[]\n" } else { b"\n]\n" })?;
+        self.stream.write_all(if self.rows == 0 { b"[]\n" } else { b"\n]\n" })?;
         self.stream.flush()?;
         Ok(self.stream)
     }

@@ -23,41 +23,23 @@ pub(super) struct ParquetEncoder<W: Write + Send> {
 
 impl<W: Write + Send> ParquetEncoder<W> {
     pub(super) fn new(stream: W, schema: &[Field]) -> Result<Self, ReportError> {
-        let fields = schema
-            .iter()
-            .map(|f| parquet_field(f).map(Arc::new))
-            .collect::<Result<_, _>>()?;
-        let root = Type::group_type_builder("schema")
-            .with_fields(fields)
-            .build()?;
-        let units: serde_json::Map<_, _> = schema
-            .iter()
-            .filter(|f| !f.unit.is_empty())
-            .map(|f| (f.name.clone(), f.unit.clone().into()))
-            .collect();
-        let units = KeyValue::new(
-            "units".to_owned(),
-            serde_json::Value::Object(units).to_string(),
-        );
+        let fields = schema.iter().map(|f| parquet_field(f).map(Arc::new)).collect::<Result<_, _>>()?;
+        let root = Type::group_type_builder("schema").with_fields(fields).build()?;
+        let units: serde_json::Map<_, _> =
+            schema.iter().filter(|f| !f.unit.is_empty()).map(|f| (f.name.clone(), f.unit.clone().into())).collect();
+        let units = KeyValue::new("units".to_owned(), serde_json::Value::Object(units).to_string());
         let properties = WriterProperties::builder()
             .set_compression(Compression::SNAPPY)
             .set_created_by(concat!("carom ", env!("CARGO_PKG_VERSION")).to_owned())
             .set_key_value_metadata(Some(vec![units]))
             .build();
         let inner = SerializedFileWriter::new(stream, Arc::new(root), Arc::new(properties))?;
-        Ok(Self {
-            inner,
-            pending: Table::with_schema(schema)?,
-        })
+        Ok(Self { inner, pending: Table::with_schema(schema)? })
     }
 
     pub(super) fn write(&mut self, table: &Table) -> Result<(), ReportError> {
         self.pending.append(table)?;
-        if self.pending.rows() >= GROUP {
-            self.write_group()
-        } else {
-            Ok(())
-        }
+        if self.pending.rows() >= GROUP { self.write_group() } else { Ok(()) }
     }
 
     fn write_group(&mut self) -> Result<(), ReportError> {
@@ -96,35 +78,25 @@ fn write_column<W: Write + Send>(
     values: &Values,
 ) -> Result<(), ReportError> {
     let Some(mut column) = group.next_column()? else {
-        return Err(ReportError::Mismatch(
-            "more columns than the Parquet schema has".to_owned(),
-        ));
+        return Err(ReportError::Mismatch("more columns than the Parquet schema has".to_owned()));
     };
     match values {
         Values::Float(v) => {
             let (levels, present) = split(v, |x| (!x.is_nan()).then_some(*x));
-            column
-                .typed::<DoubleType>()
-                .write_batch(&present, Some(&levels), None)?;
+            column.typed::<DoubleType>().write_batch(&present, Some(&levels), None)?;
         }
         Values::Integer(v) => {
             let (levels, present) = split(v, |i| *i);
-            column
-                .typed::<Int64Type>()
-                .write_batch(&present, Some(&levels), None)?;
+            column.typed::<Int64Type>().write_batch(&present, Some(&levels), None)?;
         }
         Values::Count(v) => {
             // The unsigned logical type stores the same 64 bits.
             let (levels, present) = split(v, |n| n.map(u64::cast_signed));
-            column
-                .typed::<Int64Type>()
-                .write_batch(&present, Some(&levels), None)?;
+            column.typed::<Int64Type>().write_batch(&present, Some(&levels), None)?;
         }
         Values::Text(v) => {
             let (levels, present) = split(v, |s| s.as_deref().map(ByteArray::from));
-            column
-                .typed::<ByteArrayType>()
-                .write_batch(&present, Some(&levels), None)?;
+            column.typed::<ByteArrayType>().write_batch(&present, Some(&levels), None)?;
         }
     }
     Ok(column.close()?)

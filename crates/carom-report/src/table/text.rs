@@ -8,16 +8,8 @@ const MISSING: &str = "-";
 
 pub(super) fn render(table: &Table) -> String {
     let cells: Vec<Vec<String>> = table.columns().iter().map(column_cells).collect();
-    let widths: Vec<usize> = cells
-        .iter()
-        .map(|column| {
-            column
-                .iter()
-                .map(|c| c.chars().count())
-                .max()
-                .unwrap_or_default()
-        })
-        .collect();
+    let widths: Vec<usize> =
+        cells.iter().map(|column| column.iter().map(|c| c.chars().count()).max().unwrap_or_default()).collect();
     let mut out = String::new();
     for row in 0..=table.rows() {
         let padded: Vec<String> = table
@@ -46,24 +38,11 @@ pub(crate) fn column_cells(column: &Column) -> Vec<String> {
     let mut cells = vec![column.field().heading()];
     match &column.values {
         Values::Float(v) => {
-            cells.extend(v.iter().map(|x| {
-                if x.is_nan() {
-                    missing()
-                } else {
-                    number::significant(*x, 6)
-                }
-            }));
+            cells.extend(v.iter().map(|x| if x.is_nan() { missing() } else { number::significant(*x, 6) }));
         }
-        Values::Integer(v) => {
-            cells.extend(v.iter().map(|i| i.map_or_else(missing, |i| i.to_string())))
-        }
-        Values::Count(v) => {
-            cells.extend(v.iter().map(|n| n.map_or_else(missing, |n| n.to_string())))
-        }
-        Values::Text(v) => cells.extend(
-            v.iter()
-                .map(|s| s.as_deref().map_or_else(missing, str::to_owned)),
-        ),
+        Values::Integer(v) => cells.extend(v.iter().map(|i| i.map_or_else(missing, |i| i.to_string()))),
+        Values::Count(v) => cells.extend(v.iter().map(|n| n.map_or_else(missing, |n| n.to_string()))),
+        Values::Text(v) => cells.extend(v.iter().map(|s| s.as_deref().map_or_else(missing, str::to_owned))),
     }
     cells
 }

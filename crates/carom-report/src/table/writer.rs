@@ -93,8 +93,7 @@ impl TableWriter<Target> {
     pub fn create(path: impl AsRef<Path>, schema: Schema) -> Result<Self, ReportError> {
         let path = path.as_ref();
         let format = Format::from_path(path)?;
-        let mut writer = Self::to_stream(Target(NewFile::create(path)?), format, schema)
-            .map_err(|e| e.at(path))?;
+        let mut writer = Self::to_stream(Target(NewFile::create(path)?), format, schema).map_err(|e| e.at(path))?;
         writer.path = Some(path.to_path_buf());
         Ok(writer)
     }
@@ -120,11 +119,7 @@ impl<W: Write + Send> TableWriter<W> {
             Format::Json => Encoder::Json(JsonEncoder::new(stream, &schema)?),
             Format::Parquet => Encoder::Parquet(Box::new(ParquetEncoder::new(stream, &schema)?)),
         };
-        Ok(Self {
-            schema,
-            encoder,
-            path: None,
-        })
+        Ok(Self { schema, encoder, path: None })
     }
 
     /// Appends a table's rows.

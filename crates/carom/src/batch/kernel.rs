@@ -1,9 +1,9 @@
 //! The loops of a batch: one body, compiled for each instruction set and each combination of losses.
 
-use super::{Incidence, Rebound};
+use super::{Incidence, InstructionSet, Rebound};
 use crate::normal::ledger::{self, Adhesion, AdhesiveLoss, Elastic, Ledger, NoAdhesion, Plastic, PlasticLoss};
 use crate::normal::{Size, damping::Damping};
-use crate::tangential::{Tangential, constant, friction_impulse};
+use crate::tangential::{Coulomb, FrictionLaw, Tangential, constant};
 use crate::wall::{NormalLaw, NormalResponse, WallLaw, column_ok};
 
 /// Rows handled at once: the columns of a chunk stay in the first-level cache.
@@ -74,23 +74,24 @@ impl Sizing for Curved {
 }
 
 /// All rows; whether every one of them was an impact.
-pub(super) fn run(law: &WallLaw, rows: &Incidence, out: &mut Rebound) -> bool {
+pub(super) fn run(machine: &Machine, law: &WallLaw, rows: &Incidence, out: &mut Rebound) -> bool {
     match &law.normal {
-        NormalLaw::Ledger(ledger) => run_ledger(law, ledger, rows, out),
-        other => run_sized(law, other, rows, out),
+        NormalLaw::Ledger(ledger) => run_ledger(machine, law, ledger, rows, out),
+        other => run_sized(machine, law, other, rows, out),
     }
 }
 
-fn run_ledger(law: &WallLaw, ledger: &Ledger, rows: &Incidence, out: &mut Rebound) -> bool {
+fn run_ledger(machine: &Machine, law: &WallLaw, ledger: &Ledger, rows: &Incidence, out: &mut Rebound) -> bool {
     match &ledger.plastic {
-        Plastic::None => run_plastic(law, ledger, &Elastic, rows, out),
-        Plastic::Kadomtsev(p) => run_plastic(law, ledger, p, rows, out),
-        Plastic::ThorntonNing(p) => run_plastic(law, ledger, p, rows, out),
-        Plastic::Tabor(_) => run_sized(law, &law.normal, rows, out),
+        Plastic::None => run_plastic(machine, law, ledger, &Elastic, rows, out),
+        Plastic::Kadomtsev(p) => run_plastic(machine, law, ledger, p, rows, out),
+        Plastic::ThorntonNing(p) => run_plastic(machine, law, ledger, p, rows, out),
+        Plastic::Tabor(_) => run_sized(machine, law, &law.normal, rows, out),
     }
 }
 
 fn run_plastic<P: PlasticLoss>(
+    machine: &Machine,
     law: &WallLaw,
     ledger: &Ledger,
     plastic: &P,
@@ -99,21 +100,24 @@ fn run_plastic<P: PlasticLoss>(
 ) -> bool {
     let damping = ledger.damping;
     match &ledger.adhesion {
-        Adhesion::Jkr(_) => run_sized(law, &law.normal, rows, out),
-        _ if ledger.uses_work() => run_sized(law, &Of { adhesive: ledger.work_loss(), plastic, damping }, rows, out),
-        _ => run_sized(law, &Of { adhesive: NoAdhesion, plastic, damping }, rows, out),
+        Adhesion::Jkr(_) => run_sized(machine, law, &law.normal, rows, out),
+        _ if ledger.uses_work() => {
+            run_sized(machine, law, &Of { adhesive: ledger.work_loss(), plastic, damping }, rows, out)
+        }
+        _ => run_sized(machine, law, &Of { adhesive: NoAdhesion, plastic, damping }, rows, out),
     }
 }
 
-fn run_sized<N: Normal>(law: &WallLaw, normal: &N, rows: &Incidence, out: &mut Rebound) -> bool {
+fn run_sized<N: Normal>(machine: &Machine, law: &WallLaw, normal: &N, rows: &Incidence, out: &mut Rebound) -> bool {
     if law.surface_curvature == 0.0 {
-        run_chunks(law, normal, &Flat, rows, out)
+        run_chunks(machine, law, normal, &Flat, rows, out)
     } else {
-        run_chunks(law, normal, &Curved(law.surface_curvature), rows, out)
+        run_chunks(machine, law, normal, &Curved(law.surface_curvature), rows, out)
     }
 }
 
 fn run_chunks<N: Normal, S: Sizing>(
+    machine: &Machine,
     law: &WallLaw,
     normal: &N,
     sizing: &S,
@@ -147,7 +151,7 @@ fn run_chunks<N: Normal, S: Sizing>(
             chunk.tangential[len..].fill(0.0);
             chunk.spin[len..].fill(0.0);
         }
-        dispatch(&law.tangential, normal, sizing, &mut chunk);
+        machine.dispatch(&law.tangential, normal, sizing, &mut chunk);
         all_fine &= chunk.all_fine;
         out.normal[range.clone()].copy_from_slice(&chunk.out.normal[..len]);
         out.tangential[range.clone()].copy_from_slice(&chunk.out.tangential[..len]);
@@ -163,20 +167,25 @@ fn run_chunks<N: Normal, S: Sizing>(
     all_fine
 }
 
-fn dispatch<N: Normal, S: Sizing>(tangential: &Tangential, normal: &N, sizing: &S, chunk: &mut Chunk) {
-    #[cfg(target_arch = "x86_64")]
-    {
-        use std::arch::is_x86_feature_detected as has;
-        if has!("avx512f") && has!("avx512dq") && has!("avx512vl") && has!("fma") {
-            // SAFETY: the processor has the features the function is compiled for, as was just asked.
-            return unsafe { avx512(tangential, normal, sizing, chunk) };
-        }
-        if has!("avx2") && has!("fma") {
+/// The instruction set of a batch, known to be here.
+pub(super) struct Machine(InstructionSet);
+
+impl Machine {
+    pub(super) fn new(set: InstructionSet) -> Self {
+        Self(if InstructionSet::available().any(|here| here == set) { set } else { InstructionSet::Portable })
+    }
+
+    fn dispatch<N: Normal, S: Sizing>(&self, tangential: &Tangential, normal: &N, sizing: &S, chunk: &mut Chunk) {
+        match self.0 {
+            #[cfg(target_arch = "x86_64")]
+            // SAFETY: `new` lets this set through only where the processor has it.
+            InstructionSet::Avx512 => unsafe { avx512(tangential, normal, sizing, chunk) },
+            #[cfg(target_arch = "x86_64")]
             // SAFETY: likewise.
-            return unsafe { avx2(tangential, normal, sizing, chunk) };
+            InstructionSet::Avx2 => unsafe { avx2(tangential, normal, sizing, chunk) },
+            _ => body(tangential, normal, sizing, chunk),
         }
     }
-    body(tangential, normal, sizing, chunk);
 }
 
 #[cfg(target_arch = "x86_64")]
@@ -194,7 +203,10 @@ fn avx2<N: Normal, S: Sizing>(tangential: &Tangential, normal: &N, sizing: &S, c
 #[inline(always)]
 fn body<N: Normal, S: Sizing>(tangential: &Tangential, normal: &N, sizing: &S, chunk: &mut Chunk) {
     match tangential {
-        Tangential::Friction { friction, beta } => with_friction(*friction, *beta, normal, sizing, chunk),
+        Tangential::Friction { friction, beta } => {
+            with_friction(&Coulomb { friction: *friction, beta: *beta }, normal, sizing, chunk)
+        }
+        Tangential::MicroSlip(law) => with_friction(law.as_ref(), normal, sizing, chunk),
         Tangential::Restitution(curve) => {
             let Chunk { normal: v_n, tangential: v_t, spin, diameter, out, all_fine } = chunk;
             *all_fine = true;
@@ -218,7 +230,7 @@ fn body<N: Normal, S: Sizing>(tangential: &Tangential, normal: &N, sizing: &S, c
 }
 
 #[inline(always)]
-fn with_friction<N: Normal, S: Sizing>(friction: f64, beta: f64, normal: &N, sizing: &S, chunk: &mut Chunk) {
+fn with_friction<F: FrictionLaw, N: Normal, S: Sizing>(friction: &F, normal: &N, sizing: &S, chunk: &mut Chunk) {
     let Chunk { normal: v_n, tangential: v_t, spin, diameter, out, all_fine } = chunk;
     let mut fine = true;
     for i in 0..CHUNK {
@@ -227,7 +239,7 @@ fn with_friction<N: Normal, S: Sizing>(friction: f64, beta: f64, normal: &N, siz
         let response = normal.respond(vn, vt * vt, &size);
         let normal_impulse = (1.0 + response.e) * vn;
         let slip = (-size.radius).mul_add(w, vt);
-        let (p, _) = friction_impulse(friction * response.friction_share, beta, slip.abs(), normal_impulse);
+        let (p, _) = friction.impulse(slip.abs(), normal_impulse, &response);
         let signed = if slip < 0.0 { -p } else { p };
         let spun = (p * (2.5 / size.radius)) * if slip < 0.0 { -1.0 } else { 1.0 } + w;
         fine &= out.write(

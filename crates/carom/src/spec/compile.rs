@@ -1,7 +1,8 @@
 //! From a law as written to a law that answers: every need is checked here, once.
 
+use super::check::{checked, form_fits, need, not_negative, positive};
 use super::curve::Which;
-use super::{At, CurveSpec, LawSpec, NormalKind, NormalSpec, TangentialKind};
+use super::{At, LawSpec, NormalKind, NormalSpec};
 use crate::error::SpecError;
 use crate::material::{Library, Material, MaterialRef};
 use crate::normal::adhesion::{Jkr, Work};
@@ -15,38 +16,8 @@ use crate::normal::{Loss, plastic};
 use crate::pair::{Overrides, Pair};
 use crate::resolved::Resolved;
 use crate::roughness;
-use crate::tangential::Tangential;
 use crate::validity::Validity;
 use crate::wall::{NormalLaw, WallLaw};
-
-fn need(what: &str, key: &str) -> SpecError {
-    SpecError::new(format!("the law needs {what}")).help(format!("give {key}"))
-}
-
-/// The number, if it is given and `fits`.
-fn checked<T>(
-    given: &Option<At<T>>,
-    key: &str,
-    get: impl Fn(&T) -> f64,
-    fits: impl Fn(f64) -> bool,
-    right: &str,
-) -> Result<Option<f64>, SpecError> {
-    let Some(at) = given else { return Ok(None) };
-    let value = get(&at.value);
-    if fits(value) {
-        Ok(Some(value))
-    } else {
-        Err(SpecError::new(format!("{key} = {value}")).help(right).at(at.span.clone()))
-    }
-}
-
-fn positive(v: f64) -> bool {
-    v > 0.0 && v.is_finite()
-}
-
-fn not_negative(v: f64) -> bool {
-    v >= 0.0 && v.is_finite()
-}
 
 /// The numbers of a law, each within its range.
 struct Numbers {
@@ -74,7 +45,7 @@ impl LawSpec {
         let place = normal_spec.span.clone();
         self.refuse_idle_keys(&normal_spec.value)?;
         let normal = self.normal_law(&normal_spec.value, pair.as_ref(), &numbers).map_err(|e| e.at(place))?;
-        let tangential = self.tangential_law()?;
+        let tangential = self.tangential_law(pair.as_ref())?;
         let mut law = WallLaw::assemble(normal, tangential, pair, numbers.surface_curvature);
         law.roughness = numbers.roughness;
         law.roughness_factor = numbers.roughness_factor;
@@ -318,73 +289,6 @@ impl LawSpec {
         .ok_or_else(|| need("Meyer's index", "meyer_index = 2.29"))?;
         Ok(Tabor { yield_velocity, meyer_index })
     }
-
-    fn tangential_law(&self) -> Result<Tangential, SpecError> {
-        let kind = self.tangential.as_ref().map(|t| t.value).unwrap_or_else(|| match &self.tangential_restitution {
-            None => TangentialKind::Rolling,
-            Some(at) if at.value.is_constant() => TangentialKind::Constant,
-            Some(_) => TangentialKind::ByAngle,
-        });
-        let place = self.tangential.as_ref().and_then(|t| t.span.clone());
-        let friction = || {
-            checked(&self.friction, "friction", |f| f.0, not_negative, "zero or more is wanted")?.ok_or_else(|| {
-                need("a friction coefficient for oblique impacts", "friction = 0.2, say").at(place.clone())
-            })
-        };
-        if let (Some(at), true) = (
-            &self.tangential_restitution,
-            matches!(kind, TangentialKind::Rolling | TangentialKind::Walton | TangentialKind::MicroSlip),
-        ) {
-            return Err(SpecError::new(format!(
-                "tangential_restitution has no effect with tangential = \"{}\"",
-                kind.name()
-            ))
-            .help("write tangential = \"constant\" or \"by-angle\", or leave it out")
-            .at(at.span.clone()));
-        }
-        Ok(match kind {
-            TangentialKind::Rolling => Tangential::Friction { friction: friction()?, beta: 0.0 },
-            TangentialKind::Walton => {
-                let beta = checked(
-                    &self.walton_beta,
-                    "walton_beta",
-                    |b| b.0,
-                    |b| (0.0..=1.0).contains(&b),
-                    "it lies between 0 (rolling) and 1 (slip reversed)",
-                )?
-                .ok_or_else(|| need("Walton's beta", "walton_beta = 0.4, say").at(place.clone()))?;
-                Tangential::Friction { friction: friction()?, beta }
-            }
-            TangentialKind::MicroSlip => {
-                return Err(SpecError::new("micro-slip is not available yet")
-                    .help("rolling, walton, constant or by-angle are")
-                    .at(place));
-            }
-            TangentialKind::Constant | TangentialKind::ByAngle => {
-                let at = self
-                    .tangential_restitution
-                    .as_ref()
-                    .ok_or_else(|| need("a tangential restitution", "tangential_restitution = 0.9, say").at(place))?;
-                form_fits(kind == TangentialKind::Constant, at, "tangential")?;
-                Tangential::Restitution(at.value.resolve(Which::Tangential).map_err(|e| e.at(at.span.clone()))?)
-            }
-        })
-    }
-}
-
-/// A `constant` law takes a number, a `by-angle` law a curve.
-fn form_fits(constant: bool, at: &At<CurveSpec>, key: &str) -> Result<(), SpecError> {
-    let right = match (constant, at.value.is_constant()) {
-        (true, false) => format!("a curve needs {key} = \"by-angle\""),
-        (false, true) => format!("a number needs {key} = \"constant\""),
-        _ => return Ok(()),
-    };
-    Err(SpecError::new(format!(
-        "{key} = \"{}\" does not fit its restitution",
-        if constant { "constant" } else { "by-angle" }
-    ))
-    .help(right)
-    .at(at.span.clone()))
 }
 
 fn work(pair: &Pair, numbers: &Numbers) -> Result<Work, SpecError> {

@@ -80,6 +80,21 @@ fn what_a_pair_lacks_is_named() {
             &["yield strength", "plastic_constant"],
         ),
         ("normal = \"ea\"\nfriction = 0\n", ":1:10", &["sphere and surface"]),
+        (
+            "normal = \"constant\"\nrestitution = 0.9\nfriction = 0.1\ntangential = \"micro-slip\"\n",
+            ":4:14",
+            &["a sphere and a surface for micro-slip"],
+        ),
+        (
+            "sphere = \"E=190GPa\"\nsurface = \"silicon\"\nnormal = \"constant\"\nrestitution = 0.9\nfriction = 0.1\ntangential = \"micro-slip\"\n",
+            ":6:14",
+            &["no Poisson's ratio", "poisson_ratio (nu)"],
+        ),
+        (
+            "sphere = \"copper\"\nsurface = \"silicon\"\nnormal = \"ea\"\ntangential = \"micro-slip\"\n",
+            ":4:14",
+            &["friction"],
+        ),
         ("surface = \"silicon\"\nnormal = \"ea\"\nfriction = 0\n", ":2:10", &["the sphere (not given)"]),
     ] {
         refuses(text, place, parts);
@@ -106,7 +121,11 @@ fn contradictions_are_refused() {
         ("normal = \"ea\"\nsurface_curvature = 0\n", ":5:21", &["surface_curvature = 0"]),
         ("normal = \"ea\"\nhertz_damping = -1\n", ":5:17", &["zero or more"]),
         ("normal = \"ea\"\nstiffness = \"0 GPa\"\n", ":5:13", &["positive"]),
-        ("normal = \"ea\"\ntangential = \"micro-slip\"\n", ":5:14", &["not available yet"]),
+        (
+            "normal = \"ea\"\ntangential = \"micro-slip\"\ntangential_restitution = 0.9\n",
+            ":6:26",
+            &["no effect", "micro-slip"],
+        ),
     ] {
         refuses(&format!("{PAIR}{rest}"), place, parts);
     }

@@ -134,7 +134,11 @@ impl WallLaw {
     /// A diameter or density out of range.
     pub fn critical_angle(&self, diameter: f64, density: Option<f64>, speed: f64) -> Result<Option<f64>, ImpactError> {
         let size = self.size(diameter, density)?;
-        let Tangential::Friction { friction, beta } = self.tangential else { return Ok(None) };
+        let friction = match &self.tangential {
+            Tangential::Friction { friction, .. } => *friction,
+            Tangential::MicroSlip(law) => law.friction(),
+            Tangential::Restitution(_) => return Ok(None),
+        };
         if friction <= 0.0 {
             return Ok(Some(std::f64::consts::FRAC_PI_2));
         }
@@ -142,7 +146,12 @@ impl WallLaw {
         let excess = |angle: f64| {
             let (s, c) = angle.sin_cos();
             let response = self.normal.respond(speed * s, (speed * c) * (speed * c), &size);
-            friction * response.friction_share * (1.0 + response.e) * s - (2.0 / 7.0) * (1.0 + beta) * c
+            let cap = friction * response.friction_share * (1.0 + response.e) * s;
+            match &self.tangential {
+                Tangential::Friction { beta, .. } => cap - (2.0 / 7.0) * (1.0 + beta) * c,
+                Tangential::MicroSlip(law) => law.sliding_slip(cap, response.e) - c,
+                Tangential::Restitution(_) => 0.0,
+            }
         };
         Ok(Some(root(1e-9, std::f64::consts::FRAC_PI_2, excess)))
     }

@@ -18,11 +18,14 @@ pub fn law(text: &str) -> WallLaw {
 
 const STEEL: &str = "sphere = \"stainless-steel\"\nsurface = \"silicon\"\nroughness_factor = 0.15\n";
 const ALUMINA: &str = "sphere = \"aluminium-oxide\"\nsurface = \"aluminium-gorham-kharaz\"\nwork_of_adhesion = 0.5\n";
+/// What micro-slip needs beside a table: two rubbery bodies, nearly incompressible, so that κ is near its least.
+const BARE: &str = "sphere = \"rho=1100,E=5MPa,nu=0.48\"\nsurface = \"E=3MPa,nu=0.49\"\n";
 
 /// Normal laws of every kind, without a tangential law.
 pub fn normal_laws() -> Vec<String> {
     let steel = |rest: &str| format!("{STEEL}{rest}\n");
     let alumina = |rest: &str| format!("{ALUMINA}{rest}\n");
+    let table = |rest: &str| format!("{BARE}{rest}\n");
     vec![
         steel("normal = \"ea\""),
         steel("normal = \"ea\"\nadhesion_damping = 1.3\nhertz_damping = 0.007"),
@@ -35,9 +38,9 @@ pub fn normal_laws() -> Vec<String> {
         alumina("normal = [\"adhesion-work\", \"plastic-thornton-ning\", \"hertz-damping\"]\nhertz_damping = 0.002"),
         alumina("normal = \"tabor\"\nyield_velocity = 0.09\nmeyer_index = 2.29"),
         alumina("normal = [\"plastic-tabor\", \"adhesion-jkr\"]\nyield_velocity = 0.09\nmeyer_index = 2.29"),
-        "normal = \"constant\"\nrestitution = 0.7\n".into(),
-        "normal = \"by-angle\"\nrestitution = \"grant-tabakoff\"\n".into(),
-        "normal = \"by-angle\"\nrestitution = { angle_deg = [10, 45, 90], value = [0.9, 0.7, 0.6] }\n".into(),
+        table("normal = \"constant\"\nrestitution = 0.7"),
+        table("normal = \"by-angle\"\nrestitution = \"grant-tabakoff\""),
+        table("normal = \"by-angle\"\nrestitution = { angle_deg = [10, 45, 90], value = [0.9, 0.7, 0.6] }"),
         steel("normal = \"resolved\""),
         steel("normal = \"resolved\"\nadhesion = \"reversible\"\nadhesion_damping = 1.3\nhertz_damping = 0.007"),
     ]
@@ -51,6 +54,9 @@ pub fn tangential_laws() -> Vec<&'static str> {
         "friction = 5",
         "tangential = \"walton\"\nwalton_beta = 0.4\nfriction = 0.3",
         "tangential = \"walton\"\nwalton_beta = 1\nfriction = 5",
+        "tangential = \"micro-slip\"\nfriction = 0.2",
+        "tangential = \"micro-slip\"\nfriction = 2",
+        "tangential = \"micro-slip\"\nfriction = 0",
         "tangential_restitution = 0.9",
         "tangential_restitution = \"grant-tabakoff\"",
     ]
