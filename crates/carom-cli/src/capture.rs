@@ -63,6 +63,7 @@ fn one(args: &Args, case: &ImpactArgs) -> Result<(), Failure> {
     }
     let mut lines = Lines::default();
     figures.tell(&mut lines);
+    figures.compare(&mut lines);
     output::print(&format!("{}\n\n{lines}", law.heading(diameter)))
 }
 

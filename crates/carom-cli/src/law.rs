@@ -50,7 +50,7 @@ pub struct LawArgs {
     wall_law: Option<(PathBuf, String)>,
     /// ea, eap, thornton-ning, tabor, constant, by-angle or resolved; or losses, separated by commas:
     /// adhesion-work, adhesion-damping, hertz-damping, adhesion-jkr, plastic-kadomtsev, plastic-thornton-ning,
-    /// plastic-tabor [default: ea]
+    /// plastic-tabor, plastic-bons [default: ea]
     #[arg(long, value_name = "LAW", help_heading = "Normal law", value_parser = values::normal_law)]
     law: Option<NormalSpec>,
     /// Restitution of the constant law, or a curve for by-angle: grant-tabakoff, or '{ polynomial = [...] }'

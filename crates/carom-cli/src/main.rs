@@ -9,12 +9,15 @@ mod history;
 mod impact;
 mod law;
 mod materials;
+mod merge;
 mod motion;
 mod output;
+mod report;
 mod run;
 mod sweep;
 mod text;
 mod trajectories;
+mod validate;
 mod values;
 
 use clap::{CommandFactory as _, FromArgMatches as _};

@@ -2,14 +2,13 @@
 
 use crate::failure::{Failure, of_file, say};
 use crate::law::MaterialsArgs;
-use crate::output;
-use crate::trajectories;
+use crate::{output, report};
 use carom_report::{Column, Table};
 use carom_track::record::Fate;
-use carom_track::{Case, Progress, RunError, RunOptions, Shard, Summary};
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use carom_track::{About, Case, Progress, RunError, RunOptions, Shard, Summary};
+use indicatif::{HumanCount, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use std::fmt::Write as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 const EXAMPLE: &str = "\
 Examples:
@@ -17,8 +16,9 @@ Examples:
   carom run case.toml --out out/ --resume          go on where an interrupted run stopped
   carom run case.toml --out part2/ --shard 2/8     the second of eight parts, on a machine of its own
 
-The folder then holds summary.json, impacts.csv, the paths (trajectories.csv, .vtp and .svg) and the deposit
-(deposition.csv, deposit.vtp). The results do not depend on threads, interruptions or shards.";
+The folder then holds report.html, summary.json, every impact (impacts.csv) and every particle's end (fates.csv), the paths
+(trajectories.csv, .vtp and .svg) and the deposit (deposition.csv, deposit.vtp). The results do not depend on threads,
+interruptions or shards; `carom merge` puts shards together.";
 
 /// Particles through a flow, from injection to fate, as a case file says
 #[derive(clap::Args)]
@@ -39,6 +39,9 @@ pub struct Args {
     /// Only the part I of N parts, as I/N
     #[arg(long, value_name = "I/N", requires = "out")]
     shard: Option<Shard>,
+    /// Write no report.html; a shard writes none
+    #[arg(long)]
+    no_report: bool,
     #[command(flatten)]
     materials: MaterialsArgs,
     /// Print the summary as JSON
@@ -56,9 +59,7 @@ fn threads(text: &str) -> Result<usize, String> {
 
 /// Runs the subcommand.
 pub fn run(args: &Args) -> Result<(), Failure> {
-    if let Some(folder) = args.out.as_ref().filter(|f| f.exists() && !f.is_dir()) {
-        return Err(Failure::input(format!("--out {}: a file is there; name a folder", folder.display())));
-    }
+    args.out.as_deref().map_or(Ok(()), check_folder)?;
     let library = args.materials.library()?;
     let text = output::read(&args.case)?;
     let name = args.case.display().to_string();
@@ -69,10 +70,18 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     bar.0.finish_and_clear();
     let summary = summary.map_err(failed)?;
     if let Some(folder) = &args.out {
-        trajectories::draw(&case, folder)?;
+        report::write(&About::of(&case), &summary, folder, !args.no_report && args.shard.is_none())?;
         say(&format!("wrote {}", folder.display()));
     }
     output::print(&if args.json { summary.to_json() } else { tell(&summary)? })
+}
+
+/// Refuses an output folder that cannot be one.
+pub fn check_folder(folder: &Path) -> Result<(), Failure> {
+    if folder.exists() && !folder.is_dir() {
+        return Err(Failure::input(format!("--out {}: a file is there; name a folder", folder.display())));
+    }
+    Ok(())
 }
 
 /// A bar on a terminal, nothing in a pipe.
@@ -81,28 +90,40 @@ struct Bar(ProgressBar);
 impl Bar {
     fn new() -> Self {
         let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
-        let style = ProgressStyle::with_template("{wide_bar} {human_pos} of {human_len} particles, {eta} left");
-        Self(style.map_or_else(|_| bar.clone(), |style| bar.clone().with_style(style)))
+        let style =
+            ProgressStyle::with_template("{wide_bar} {human_pos} of {human_len} particles, {rate}/s, {eta} left");
+        let rate = |state: &ProgressState, out: &mut dyn std::fmt::Write| {
+            let _ = write!(out, "{}", HumanCount(state.per_sec() as u64));
+        };
+        Self(style.map_or_else(|_| bar.clone(), |style| bar.clone().with_style(style.with_key("rate", rate))))
     }
 }
 
 impl Progress for Bar {
     fn particles(&self, done: u64, all: u64) {
-        self.0.set_length(all);
+        if self.0.length().is_none() {
+            // what a resumed run had done before says nothing of the rate
+            self.0.set_length(all);
+            self.0.set_position(done);
+            self.0.reset_eta();
+        }
         self.0.set_position(done);
     }
 }
 
-fn failed(error: RunError) -> Failure {
+/// A run or a merging that failed, as the command shows it.
+pub fn failed(error: RunError) -> Failure {
     match &error {
         RunError::Io { path, source } => of_file(&path.display().to_string(), source),
-        RunError::Foreign { .. } | RunError::NoFolder | RunError::Shard { .. } => Failure::input(error.to_string()),
+        RunError::Foreign { .. } | RunError::NoFolder | RunError::Shard { .. } | RunError::Missing { .. } => {
+            Failure::input(error.to_string())
+        }
         _ => Failure::Other(error.to_string()),
     }
 }
 
 /// What became of the particles, and what happened at each wall.
-fn tell(summary: &Summary) -> Result<String, Failure> {
+pub fn tell(summary: &Summary) -> Result<String, Failure> {
     let mut text = String::new();
     if !summary.title.is_empty() {
         let _ = writeln!(text, "{}\n", summary.title);

@@ -3,8 +3,8 @@
 use crate::failure::{Failure, of_file};
 use carom_report::plot::Legend;
 use carom_report::{Axis, Color, Plot, Series};
-use carom_track::Case;
-use carom_track::geometry::{Plane, Shape};
+use carom_track::About;
+use carom_track::about::AboutPlane;
 use std::path::Path;
 
 /// One particle's path.
@@ -14,15 +14,14 @@ struct Line {
     y: Vec<f64>,
 }
 
-/// Draws `trajectories.csv` of the folder as `trajectories.svg`, if the run recorded any.
-pub fn draw(case: &Case, folder: &Path) -> Result<(), Failure> {
+/// The picture of `trajectories.csv` in the folder, if the run recorded any.
+pub fn picture(about: &About, folder: &Path) -> Result<Option<Plot>, Failure> {
     let table = folder.join("trajectories.csv");
-    if case.trajectories == 0 || !table.exists() {
-        return Ok(());
+    if !table.exists() {
+        return Ok(None);
     }
     let lines = read(&table)?;
-    let Some((low, high)) = extent(&lines) else { return Ok(()) };
-    Ok(plot(case, &lines, low, high).write(folder.join("trajectories.svg"))?)
+    Ok(extent(&lines).map(|(low, high)| plot(about, &lines, low, high)))
 }
 
 fn read(table: &Path) -> Result<Vec<Line>, Failure> {
@@ -60,8 +59,8 @@ fn extent(lines: &[Line]) -> Option<([f64; 2], [f64; 2])> {
     (x.0 <= x.1 && y.0 <= y.1).then_some(([x.0, y.0], [x.1, y.1]))
 }
 
-fn plot(case: &Case, lines: &[Line], low: [f64; 2], high: [f64; 2]) -> Plot {
-    let (low, high) = with_walls(case, low, high);
+fn plot(about: &About, lines: &[Line], low: [f64; 2], high: [f64; 2]) -> Plot {
+    let (low, high) = with_walls(about, low, high);
     let [width, height] = [high[0] - low[0], high[1] - low[1]];
     let axis = |label: &str, span: f64| {
         let (unit, factor) = match span {
@@ -71,11 +70,11 @@ fn plot(case: &Case, lines: &[Line], low: [f64; 2], high: [f64; 2]) -> Plot {
         };
         Axis::scaled(label, unit, factor)
     };
-    let mut plot = Plot::new(&case.title, axis("x", width), axis("y", height));
+    let mut plot = Plot::new(&about.title, axis("x", width), axis("y", height));
     let mut named = Vec::new();
     for line in lines {
-        let injection = case.particle(line.particle).map_or(0, |p| p.injection);
-        let label = match case.injections.get(injection) {
+        let injection = about.injection(line.particle).unwrap_or(0);
+        let label = match about.injections.get(injection) {
             Some(injected) if !named.contains(&injection) => injected.name.clone(),
             _ => String::new(),
         };
@@ -83,10 +82,8 @@ fn plot(case: &Case, lines: &[Line], low: [f64; 2], high: [f64; 2]) -> Plot {
         plot = plot
             .with(Series::line(label, line.x.iter().copied(), line.y.iter().copied()).color(Color::cycle(injection)));
     }
-    for wall in case.domain.walls() {
-        if let Shape::Plane(plane) = &wall.shape
-            && let Some([from, to]) = edge(plane, low, high)
-        {
+    for plane in &about.planes {
+        if let Some([from, to]) = edge(plane, low, high) {
             plot = plot.wall(from, to);
         }
     }
@@ -97,10 +94,9 @@ fn plot(case: &Case, lines: &[Line], low: [f64; 2], high: [f64; 2]) -> Plot {
 }
 
 /// The corners with the walls beside the paths that lie nearly across an axis, and never a span of zero.
-fn with_walls(case: &Case, mut low: [f64; 2], mut high: [f64; 2]) -> ([f64; 2], [f64; 2]) {
+fn with_walls(about: &About, mut low: [f64; 2], mut high: [f64; 2]) -> ([f64; 2], [f64; 2]) {
     let spans = [high[0] - low[0], high[1] - low[1]];
-    for wall in case.domain.walls() {
-        let Shape::Plane(plane) = &wall.shape else { continue };
+    for plane in &about.planes {
         for axis in 0..2 {
             let (at, near) = (plane.point[axis], 0.5 * spans[axis]);
             if plane.normal[axis].abs() > 0.999 && at > low[axis] - near && at < high[axis] + near {
@@ -120,7 +116,7 @@ fn with_walls(case: &Case, mut low: [f64; 2], mut high: [f64; 2]) -> ([f64; 2], 
 }
 
 /// The part of a plane's trace within the corners; none for a plane that does not stand on edge.
-fn edge(plane: &Plane, low: [f64; 2], high: [f64; 2]) -> Option<[[f64; 2]; 2]> {
+fn edge(plane: &AboutPlane, low: [f64; 2], high: [f64; 2]) -> Option<[[f64; 2]; 2]> {
     let [nx, ny, nz] = plane.normal;
     if nz.abs() > 1e-9 {
         return None;
@@ -151,13 +147,14 @@ mod tests {
 
     #[test]
     fn a_wall_is_cut_to_the_picture() {
-        let floor = Plane { point: [5.0, 0.0, 0.0], normal: [0.0, 1.0, 0.0] };
+        let name = String::new();
+        let floor = AboutPlane { name, point: [5.0, 0.0, 0.0], normal: [0.0, 1.0, 0.0] };
         let mut ends = edge(&floor, [0.0, 0.0], [1.0, 2.0]).expect("it stands on edge");
         ends.sort_by(|a, b| a[0].total_cmp(&b[0]));
         assert!(ends[0][0].abs() < 1e-8 && (ends[1][0] - 1.0).abs() < 1e-8 && ends[0][1] == 0.0);
-        let far = Plane { point: [0.0, -3.0, 0.0], ..floor };
+        let far = AboutPlane { point: [0.0, -3.0, 0.0], ..floor.clone() };
         assert_eq!(edge(&far, [0.0, 0.0], [1.0, 2.0]), None);
-        let facing = Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0] };
+        let facing = AboutPlane { point: [0.0; 3], normal: [0.0, 0.0, 1.0], ..floor };
         assert_eq!(edge(&facing, [0.0, 0.0], [1.0, 2.0]), None);
     }
 }

@@ -5,6 +5,25 @@ use std::process::{Command, Output};
 
 const CASE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/cmd/run.in/bounce.toml");
 
+/// Spheres of many sizes over several blocks, walls that keep, rebound and let go, weights that differ.
+const MANY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/cmd/run.in/many.toml");
+
+fn carom(folder: &Path, arguments: &str) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_carom"));
+    command.args(arguments.split_whitespace()).current_dir(folder).output().expect("it runs")
+}
+
+/// The names of a folder's files, and what is in them.
+fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
+    let entries = std::fs::read_dir(folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display()));
+    let mut files: Vec<_> = entries
+        .map(|e| e.expect("an entry"))
+        .map(|e| (e.file_name().to_string_lossy().into_owned(), std::fs::read(e.path()).expect("a file")))
+        .collect();
+    files.sort();
+    files
+}
+
 fn run(folder: &Path, arguments: &str) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_carom"));
     command.arg("run").arg(CASE).args(arguments.split_whitespace()).current_dir(folder).output().expect("it runs")
@@ -47,4 +66,105 @@ fn threads_and_resuming_change_nothing() {
         let [one, two] = ["one", "two"].map(|f| text(&folder.path().join(f).join(name)));
         assert!(one == two, "{name} differs");
     }
+}
+
+/// Files that differ, and those that only one folder has.
+fn differences(a: &Path, b: &Path) -> Vec<String> {
+    let (a, b) = (files(a), files(b));
+    let only = |these: &[(String, Vec<u8>)], those: &[(String, Vec<u8>)]| {
+        these.iter().filter(|f| !those.contains(f)).map(|f| f.0.clone()).collect::<Vec<_>>()
+    };
+    [only(&a, &b), only(&b, &a)].concat()
+}
+
+#[test]
+fn merged_shards_leave_the_folder_of_one_run_report_and_all() {
+    let folder = tempfile::tempdir().expect("a folder");
+    assert!(carom(folder.path(), &format!("run {MANY} --out whole --threads 2")).status.success());
+    for i in 1..=3 {
+        let out = carom(folder.path(), &format!("run {MANY} --out part{i} --shard {i}/3"));
+        assert!(out.status.success(), "{}", String::from_utf8_lossy(&out.stderr));
+        assert!(!folder.path().join(format!("part{i}/report.html")).exists());
+    }
+    let merged = carom(folder.path(), "merge part3 part1 part2 --out merged --json");
+    assert!(merged.status.success(), "{}", String::from_utf8_lossy(&merged.stderr));
+    let at = |name: &str| folder.path().join(name);
+    assert_eq!(differences(&at("whole"), &at("merged")), Vec::<String>::new());
+    assert_eq!(String::from_utf8_lossy(&merged.stdout), text(&at("whole/summary.json")));
+    let names: Vec<String> = files(&at("whole")).into_iter().map(|f| f.0).collect();
+    assert_eq!(
+        names,
+        [
+            "checkpoint.json",
+            "deposit.vtp",
+            "deposition.csv",
+            "fates.parquet",
+            "impacts.csv",
+            "report.html",
+            "summary.json",
+            "trajectories.csv",
+            "trajectories.svg",
+            "trajectories.vtp"
+        ]
+    );
+    // the parts that are there do not make a whole, nor do parts of something else
+    for (arguments, why) in [
+        ("part1 part3", "shard 2/3 is missing"),
+        ("part1 part2 part2", "shard 2/3 a second time"),
+        ("part1 whole", "a whole run"),
+        ("nowhere", "no checkpoint.json"),
+    ] {
+        let refused = carom(folder.path(), &format!("merge {arguments} --out never"));
+        assert_eq!(refused.status.code(), Some(2), "{arguments}");
+        let said = String::from_utf8_lossy(&refused.stderr);
+        assert!(said.contains(why) && said.lines().count() <= 2, "{said}");
+        assert!(!at("never").exists());
+    }
+}
+
+#[test]
+fn the_report_shows_what_happened_and_asks_for_nothing_else() {
+    let folder = tempfile::tempdir().expect("a folder");
+    assert!(carom(folder.path(), &format!("run {MANY} --out out")).status.success());
+    let path = folder.path().join("out/report.html");
+    let html = text(&path);
+    for part in [
+        "<h1>Spheres of many sizes &lt;between&gt; plates</h1>",
+        "<h2>What ran</h2>",
+        "<h2>Fates</h2>",
+        "<h2>Paths</h2>",
+        "<h2>Deposit</h2>",
+        "<h3>floor</h3>",
+        "Mass kept by floor along x",
+        "<h3>By size</h3>",
+        "normal impact speed (m/s)",
+        "impact angle (°)",
+        "restitution",
+        "<h2>Energy</h2>",
+        "<td class=\"text\">adhesion</td>",
+        "carom's case file, kept whole",
+    ] {
+        assert!(html.contains(part), "{part}");
+    }
+    for outside in ["<script", "<link", " src=", "@import", "url("] {
+        assert!(!html.contains(outside), "{outside}");
+    }
+    assert!(!html.contains("NaN"));
+    // none when it is not wanted, and no old one is left
+    assert!(carom(folder.path(), &format!("run {MANY} --out out --no-report")).status.success());
+    assert!(!path.exists());
+    assert!(carom(folder.path(), &format!("run {MANY} --out out --resume")).status.success());
+    assert_eq!(text(&path), html);
+}
+
+#[test]
+fn a_report_without_tables_says_what_is_missing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let case = text(Path::new(CASE)) + "\n[output]\nimpacts = false\nfates = false\ntrajectories = 0\n";
+    std::fs::write(folder.path().join("case.toml"), case).expect("a file");
+    let out = carom(folder.path(), "run case.toml --out out");
+    assert!(out.status.success(), "{}", String::from_utf8_lossy(&out.stderr));
+    let html = text(&folder.path().join("out/report.html"));
+    assert!(html.contains("the case has impacts = false") && html.contains("the case has fates = false"));
+    assert!(!folder.path().join("out/trajectories.svg").exists());
 }

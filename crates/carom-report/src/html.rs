@@ -104,6 +104,23 @@ impl Report {
         self
     }
 
+    /// Shares of a whole as bars: what, its share of one, and the amount as text.
+    pub fn shares<'a>(&mut self, rows: impl IntoIterator<Item = (&'a str, f64, String)>, caption: &str) -> &mut Self {
+        let _ = writeln!(self.body, "<table class=\"shares\">\n<caption>{}</caption>\n<tbody>", escape(caption));
+        for (what, share, amount) in rows {
+            let percent = 100.0 * share.clamp(0.0, 1.0);
+            let _ = writeln!(
+                self.body,
+                "<tr><td class=\"text\">{}</td><td class=\"bar\"><div style=\"width:{percent:.2}%\"></div></td>\
+                 <td>{percent:.2} %</td><td>{}</td></tr>",
+                escape(what),
+                escape(&amount)
+            );
+        }
+        self.body.push_str("</tbody>\n</table>\n");
+        self
+    }
+
     /// The whole document.
     #[must_use]
     pub fn html(&self) -> String {

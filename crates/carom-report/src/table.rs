@@ -20,10 +20,13 @@ use crate::ReportError;
 mod csv;
 mod json;
 mod parquet;
+mod parquet_reader;
+mod reader;
 mod text;
 mod values;
 mod writer;
 
+pub use reader::TableReader;
 pub(crate) use text::column_cells;
 pub use values::{Cell, Kind, Values};
 pub use writer::{Format, TableWriter, Target};

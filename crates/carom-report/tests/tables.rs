@@ -3,7 +3,7 @@
 use std::fs;
 use std::io::{self, Write};
 
-use carom_report::{Cell, Column, Field, Format, ReportError, Table, TableWriter};
+use carom_report::{Cell, Column, Field, Format, ReportError, Table, TableReader, TableWriter, Values};
 use parquet::basic::Compression;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field as Read;
@@ -236,4 +236,62 @@ rebound             90       0.3
 capture              -  0.333333
 ";
     assert_eq!(table.to_text(), want);
+}
+
+#[test]
+fn what_was_written_is_read_again_bit_for_bit_and_column_by_column() {
+    let folder = tempfile::tempdir().unwrap();
+    let schema =
+        vec![Field::float("time", "s"), Field::text("wall"), Field::count("particle"), Field::integer("shift")];
+    for name in ["table.csv", "table.parquet"] {
+        let path = folder.path().join(name);
+        let mut writer = TableWriter::create(&path, sample().schema()).unwrap();
+        // several batches of CSV and two row groups
+        let copies = 10_000;
+        (0..copies).for_each(|_| writer.write(&sample()).unwrap());
+        writer.finish().unwrap();
+        let mut reader = TableReader::open(&path, schema.clone()).unwrap();
+        let mut read = Table::with_schema(&schema).unwrap();
+        while let Some(batch) = reader.next_batch().unwrap() {
+            read.append(batch).unwrap();
+        }
+        assert_eq!(read.rows(), copies * NUMBERS.len(), "{name}");
+        for field in &schema {
+            let (written, read) = (sample().column(&field.name).unwrap().clone(), read.column(&field.name).unwrap());
+            match (&written.values, &read.values) {
+                (Values::Float(w), Values::Float(r)) => {
+                    let bits = |v: &f64| if v.is_nan() { None } else { Some(v.to_bits()) };
+                    assert!(r.iter().map(bits).eq(w.iter().cycle().take(r.len()).map(bits)), "{name}");
+                }
+                (Values::Text(w), Values::Text(r)) => assert!(r.iter().eq(w.iter().cycle().take(r.len())), "{name}"),
+                (Values::Count(w), Values::Count(r)) => assert!(r.iter().eq(w.iter().cycle().take(r.len())), "{name}"),
+                (Values::Integer(w), Values::Integer(r)) => {
+                    assert!(r.iter().eq(w.iter().cycle().take(r.len())), "{name}")
+                }
+                _ => panic!("{name}: {} is of another kind", field.name),
+            }
+        }
+    }
+}
+
+#[test]
+fn a_file_of_something_else_is_refused_with_its_place() {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["table.csv", "table.parquet"] {
+        let path = folder.path().join(name);
+        sample().write(&path).unwrap();
+        let missing = TableReader::open(&path, vec![Field::float("speed", "m/s")]).err().unwrap().to_string();
+        assert!(missing.contains(name) && missing.contains("no column \"speed\""), "{missing}");
+        let mut reader = TableReader::open(&path, vec![Field::float("wall", "")]).unwrap();
+        let kind = reader.next_batch().unwrap_err().to_string();
+        assert!(kind.contains(name) && kind.contains("\"wall\""), "{kind}");
+    }
+    let torn = folder.path().join("torn.parquet");
+    let bytes = fs::read(folder.path().join("table.parquet")).unwrap();
+    fs::write(&torn, &bytes[..bytes.len() / 2]).unwrap();
+    assert!(TableReader::open(&torn, sample().schema()).is_err());
+    fs::write(folder.path().join("table.csv"), "particle,time\n1,0.5\n2,x\n").unwrap();
+    let mut reader = TableReader::open(folder.path().join("table.csv"), vec![Field::float("time", "s")]).unwrap();
+    let bad = reader.next_batch().unwrap_err().to_string();
+    assert!(bad.contains("line 3: 'x' in column \"time\""), "{bad}");
 }

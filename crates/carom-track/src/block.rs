@@ -3,6 +3,7 @@
 use crate::case::Case;
 use crate::record::{End, ImpactRecord, Sink};
 use crate::summary::Summary;
+use crate::tables::{FATES, IMPACTS, LAYOUTS, TRAJECTORIES};
 use crate::tracker::Particle;
 use crate::vector::Vec3;
 use serde::Serialize;
@@ -15,19 +16,9 @@ pub const SIZE: u64 = 1024;
 #[derive(Debug)]
 pub(crate) struct Block {
     pub summary: Summary,
-    /// Rows of `impacts.csv`.
-    pub impacts: Vec<u8>,
-    /// Rows of `trajectories.csv`.
-    pub trajectories: Vec<u8>,
+    /// Rows of each table, as CSV.
+    pub rows: [Vec<u8>; LAYOUTS.len()],
 }
-
-/// The first line of `impacts.csv`.
-pub(crate) const IMPACTS_HEADER: &str = "particle,time,x,y,z,wall,diameter,normal_speed_in,tangential_speed_in,spin_in,\
-restitution,impulse_ratio,fate,normal_speed_out,tangential_speed_out,spin_out,weight,normal_x,normal_y,normal_z,adhesion,\
-adhesion_damping,hertz_damping,plastic,other,friction,captured,kept\n";
-
-/// The first line of `trajectories.csv`.
-pub(crate) const TRAJECTORIES_HEADER: &str = "particle,time,x,y,z,vx,vy,vz,spin_x,spin_y,spin_z\n";
 
 /// A row of `impacts.csv`, columns in groups.
 #[derive(Serialize)]
@@ -45,6 +36,16 @@ struct ImpactRow<'a> {
     energy: [f64; 8],
 }
 
+/// A row of `fates.csv`, columns in groups.
+#[derive(Serialize)]
+struct FateRow<'a> {
+    particle: u64,
+    words: [&'a str; 3],
+    time_and_place: [f64; 4],
+    size: [f64; 3],
+    impacts: u64,
+}
+
 /// One point of a recorded path.
 type Point = (u64, [f64; 10]);
 
@@ -52,26 +53,35 @@ struct Collector<'a> {
     case: &'a Case,
     summary: Summary,
     impacts: Vec<ImpactRecord>,
+    ends: Vec<End>,
     points: Vec<Point>,
+    /// The first particle's number, and how many impacts each has had.
+    first: u64,
+    hits: Vec<u64>,
     wanted: Wanted,
 }
 
-/// Which rows are wanted.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Wanted {
-    pub impacts: bool,
-    pub trajectories: bool,
+/// Which tables' rows are wanted.
+pub(crate) type Wanted = [bool; LAYOUTS.len()];
+
+impl Collector<'_> {
+    fn hits(&mut self, particle: u64) -> Option<&mut u64> {
+        self.hits.get_mut(usize::try_from(particle.checked_sub(self.first)?).ok()?)
+    }
 }
 
 impl Sink for Collector<'_> {
     fn start(&mut self, particle: &Particle) -> bool {
         self.summary.start(particle.mass());
-        self.wanted.trajectories && particle.number < self.case.trajectories
+        self.wanted[TRAJECTORIES] && particle.number < self.case.trajectories
     }
 
     fn impact(&mut self, impact: &ImpactRecord) {
         self.summary.impact(impact);
-        if self.wanted.impacts {
+        if let Some(hits) = self.hits(impact.particle) {
+            *hits += 1;
+        }
+        if self.wanted[IMPACTS] {
             self.impacts.push(*impact);
         }
     }
@@ -82,6 +92,9 @@ impl Sink for Collector<'_> {
 
     fn end(&mut self, end: &End) {
         self.summary.end(end, &self.case.bins);
+        if self.wanted[FATES] {
+            self.ends.push(*end);
+        }
     }
 
     fn stalled(&mut self) {
@@ -91,18 +104,33 @@ impl Sink for Collector<'_> {
 
 /// Tracks the particles of a range of numbers.
 pub(crate) fn track(case: &Case, numbers: Range<u64>, wanted: Wanted) -> Block {
-    let mut collector = Collector { case, summary: empty(case), impacts: Vec::new(), points: Vec::new(), wanted };
+    let mut collector = Collector {
+        case,
+        summary: empty(case),
+        impacts: Vec::new(),
+        ends: Vec::new(),
+        points: Vec::new(),
+        first: numbers.start,
+        hits: vec![0; numbers.clone().count()],
+        wanted,
+    };
     case.tracker().run(&mut numbers.filter_map(|n| case.particle(n)), &mut collector);
-    let Collector { summary, mut impacts, mut points, .. } = collector;
+    let Collector { summary, mut impacts, mut ends, mut points, hits, first, .. } = collector;
     // events of one particle are in order already: a stable sort keeps them so
     impacts.sort_by_key(|i| i.particle);
     points.sort_by_key(|p| p.0);
+    ends.sort_by_key(|e| e.particle.number);
     let walls: Vec<&str> = case.domain.walls().iter().map(|w| w.name.as_str()).collect();
-    Block {
-        summary,
-        impacts: rows(impacts.iter().map(|i| impact_row(i, walls.get(i.wall).copied().unwrap_or_default()))),
-        trajectories: rows(points.iter()),
-    }
+    let wall = |w: usize| walls.get(w).copied().unwrap_or_default();
+    let hits = |particle: u64| hits.get((particle - first) as usize).copied().unwrap_or_default();
+    let mut tables = Wanted::default().map(|_| Vec::new());
+    tables[IMPACTS] = rows(impacts.iter().map(|i| impact_row(i, wall(i.wall))));
+    tables[FATES] = rows(ends.iter().map(|e| {
+        let injection = case.injections.get(e.particle.injection).map_or("", |i| i.name.as_str());
+        fate_row(e, injection, e.wall.map_or("", wall), hits(e.particle.number))
+    }));
+    tables[TRAJECTORIES] = rows(points.iter());
+    Block { summary, rows: tables }
 }
 
 /// A summary of nothing.
@@ -137,18 +165,30 @@ fn impact_row<'a>(i: &ImpactRecord, wall: &'a str) -> ImpactRow<'a> {
     }
 }
 
+fn fate_row<'a>(e: &End, injection: &'a str, wall: &'a str, impacts: u64) -> FateRow<'a> {
+    let (p, [x, y, z]) = (&e.particle, e.position);
+    FateRow {
+        particle: p.number,
+        words: [injection, e.fate.name(), wall],
+        time_and_place: [e.time, x, y, z],
+        size: [p.diameter, p.weight, p.mass()],
+        impacts,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::record::Fate;
 
     #[test]
-    fn header_and_row_have_as_many_columns() {
-        let names: Vec<&str> = IMPACTS_HEADER.trim_end().split(',').collect();
+    fn headers_and_rows_have_as_many_columns() {
+        let names: Vec<String> = LAYOUTS[IMPACTS].schema().into_iter().map(|f| f.name).collect();
         assert_eq!(names.len(), 10 + 10 + 8);
         let energies = carom::Energy::default().named().map(|(name, _)| name);
         assert_eq!(names[20..], energies);
-        assert_eq!(TRAJECTORIES_HEADER.split(',').count(), 11);
+        assert_eq!(LAYOUTS[TRAJECTORIES].schema().len(), 11);
+        assert_eq!(LAYOUTS[FATES].header(), "particle,injection,fate,wall,time,x,y,z,diameter,weight,mass,impacts\n");
         assert_eq!(Fate::ALL.map(|f| f as usize), [0, 1, 2, 3, 4]);
     }
 }

@@ -15,6 +15,7 @@ use crate::deposition::{Bins, Region};
 use crate::domain::{Analytic, Wall};
 use crate::dynamics::Dynamics;
 use crate::injection::Start;
+use crate::tables::TableFormat;
 use crate::tracker::{Behavior, Particle, Settings, SettleHeight, Tracker};
 use carom::material::Library;
 use carom::{Impact, SpecError};
@@ -44,12 +45,16 @@ pub struct Case {
     pub settings: Settings,
     /// How many particles' trajectories are recorded.
     pub trajectories: u64,
-    /// Whether impacts are recorded.
-    pub impacts: bool,
+    /// How impacts are recorded, if they are.
+    pub impacts: Option<TableFormat>,
+    /// How the particles' fates are recorded, if they are.
+    pub fates: Option<TableFormat>,
     /// Whether trajectories and deposits are written as VTK too.
     pub vtk: bool,
     /// How deposits are sorted.
     pub bins: Bins,
+    /// Its text.
+    pub text: String,
     /// A number that tells this case from others, for resuming.
     pub fingerprint: u64,
 }
@@ -105,9 +110,11 @@ impl Case {
             injections,
             settings,
             trajectories: output.trajectories.map_or(TRAJECTORIES, |t| t.value),
-            impacts: output.impacts.unwrap_or(true),
+            impacts: output.impacts.unwrap_or_default().0,
+            fates: output.fates.unwrap_or_default().0,
             vtk: output.vtk.unwrap_or(true),
             bins,
+            text: text.to_owned(),
             fingerprint: fingerprint(text),
         })
     }

@@ -4,6 +4,7 @@
 //! [`injection`] where spheres start, [`random`] where chance comes from; [`domain`] joins flow and walls, [`tracker`]
 //! takes each sphere from its injection to its fate.
 
+pub mod about;
 mod block;
 pub mod case;
 pub mod deposition;
@@ -19,9 +20,12 @@ pub mod random;
 pub mod record;
 pub mod run;
 pub mod summary;
+pub mod tables;
 pub mod tracker;
 pub(crate) mod vector;
 
+pub use about::About;
 pub use case::{Case, CaseError};
 pub use run::{Progress, RunError, RunOptions, Shard, Silent, merge, run};
 pub use summary::Summary;
+pub use tables::TableFormat;

@@ -11,7 +11,7 @@ mod vtk;
 
 pub use merge::merge;
 
-use crate::block::{self, Wanted};
+use crate::block;
 use crate::case::Case;
 use crate::summary::Summary;
 use files::{Output, State};
@@ -23,7 +23,8 @@ use std::path::{Path, PathBuf};
 pub struct RunOptions {
     /// Threads; 0 for as many as the machine has.
     pub threads: usize,
-    /// Where to put `summary.json`, `impacts.csv`, `deposition.csv`, `trajectories.csv`, VTK files; nothing is written without.
+    /// Where to put `summary.json`, the tables of impacts, fates, deposition and trajectories, and VTK files; nothing is
+    /// written without.
     pub out: Option<PathBuf>,
     /// Go on where an interrupted run in `out` stopped.
     pub resume: bool,
@@ -41,9 +42,6 @@ pub struct Shard {
 }
 
 impl Shard {
-    /// All of it.
-    pub const WHOLE: Self = Self { index: 1, of: 1 };
-
     /// The blocks of this part: as even as whole blocks allow, each part following on the last.
     fn blocks(self, all: u64) -> Range<u64> {
         let edge = |i: u64| (u128::from(all) * u128::from(i) / u128::from(self.of)) as u64;
@@ -99,6 +97,17 @@ pub enum RunError {
     /// Resuming needs a folder.
     #[error("nothing to resume: an interrupted run is found by its output folder, give --out")]
     NoFolder,
+    /// What a table holds could not be turned into Parquet.
+    #[error(transparent)]
+    Table(#[from] carom_report::ReportError),
+    /// A part that is not among those to be merged.
+    #[error("shard {index}/{of} is missing: all {of} are needed, finished")]
+    Missing {
+        /// Index.
+        index: u64,
+        /// Parts.
+        of: u64,
+    },
     /// A part that is none.
     #[error("shard {index}/{of}: the first is 1/{of}, the last {of}/{of}")]
     Shard {
@@ -113,6 +122,10 @@ impl RunError {
     fn io(path: &Path) -> impl Fn(std::io::Error) -> Self + '_ {
         move |source| Self::Io { path: path.to_owned(), source }
     }
+
+    fn foreign(path: impl Into<PathBuf>, message: impl Into<String>) -> Self {
+        Self::Foreign { path: path.into(), message: message.into() }
+    }
 }
 
 /// Runs a case to its end.
@@ -120,7 +133,7 @@ impl RunError {
 /// # Errors
 /// What could not be read or written, and resuming a run that is not this one.
 pub fn run(case: &Case, options: &RunOptions, progress: &dyn Progress) -> Result<Summary, RunError> {
-    let shard = options.shard.unwrap_or(Shard::WHOLE);
+    let shard = options.shard.unwrap_or(Shard { index: 1, of: 1 });
     if shard.index < 1 || shard.index > shard.of {
         return Err(RunError::Shard { index: shard.index, of: shard.of });
     }
@@ -129,12 +142,12 @@ pub fn run(case: &Case, options: &RunOptions, progress: &dyn Progress) -> Result
     }
     let count = case.count();
     let blocks = shard.blocks(count.div_ceil(block::SIZE));
-    let fresh = State::new(case, shard, blocks.clone());
+    let fresh = State::new(case, options.shard, blocks.clone());
     let mut output = match &options.out {
-        Some(folder) => Some(Output::open(folder, case, fresh.clone(), options.resume)?),
+        Some(folder) => Some(Output::open(folder, fresh.clone(), options.resume)?),
         None => None,
     };
-    let wanted = Wanted { impacts: output.is_some() && case.impacts, trajectories: output.is_some() };
+    let wanted = output.as_ref().map_or_else(Default::default, |o| o.state.wanted());
     let mut summary = output.as_ref().map_or(fresh.summary, |o| o.state.summary.clone());
     let next = output.as_ref().map_or(blocks.start, |o| o.state.next);
     let numbers = |b: u64| b * block::SIZE..((b + 1) * block::SIZE).min(count);
@@ -155,7 +168,7 @@ pub fn run(case: &Case, options: &RunOptions, progress: &dyn Progress) -> Result
         },
     )?;
     if let Some(output) = output {
-        output.finish(case)?;
+        output.finish()?;
     }
     Ok(summary)
 }

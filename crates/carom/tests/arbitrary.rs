@@ -54,6 +54,7 @@ fn fragments() -> impl Strategy<Value = String> {
         "\"0.3 J/m2\"",
         "\"2 m/s\"",
         "[\"adhesion-work\", \"plastic-tabor\"]",
+        "[\"adhesion-work\", \"plastic-bons\"]",
         "[]",
         "{ polynomial = [0.5] }",
         "\"grant-tabakoff\"",

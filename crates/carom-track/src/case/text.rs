@@ -1,5 +1,6 @@
 //! The case file as written: what serde reads, with places, before anything is checked.
 
+use crate::tables::TableFormat;
 use carom::material::MaterialRef;
 use carom::spec::{At, CurveSpec, LawSpec};
 use carom::units::{
@@ -232,11 +233,22 @@ pub(super) struct RunText {
 #[serde(deny_unknown_fields)]
 pub(super) struct OutputText {
     pub trajectories: Option<At<u64>>,
-    pub impacts: Option<bool>,
+    pub impacts: Option<RowsText>,
+    pub fates: Option<RowsText>,
     pub vtk: Option<bool>,
     pub size_bins: Option<At<Vec<Length>>>,
     #[serde(default)]
     pub region: Vec<At<RegionText>>,
+}
+
+/// `"csv"`, `"parquet"`, or `false` for no table; `true` is CSV.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct RowsText(pub Option<TableFormat>);
+
+impl Default for RowsText {
+    fn default() -> Self {
+        Self(Some(TableFormat::Csv))
+    }
 }
 
 #[derive(Debug, serde::Deserialize)]
@@ -266,7 +278,8 @@ si!(Length, Speed, Acceleration, AngularVelocity);
 mod forms {
     //! Values that may be written in more than one form: a visitor each, so that the errors inside keep their words.
 
-    use super::{PlaceText, PlacesText, Si, SizeText, SizesText, VelocityText};
+    use super::{PlaceText, PlacesText, RowsText, Si, SizeText, SizesText, TableFormat, VelocityText};
+    use carom::error::did_you_mean;
     use carom::units::{Length, Speed};
     use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
     use serde::de::{self, Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
@@ -313,6 +326,34 @@ mod forms {
                 }
             }
             deserializer.deserialize_any(Place)
+        }
+    }
+
+    impl<'de> Deserialize<'de> for RowsText {
+        fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+            struct Table;
+            impl Visitor<'_> for Table {
+                type Value = RowsText;
+                fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                    f.write_str("\"csv\", \"parquet\" or false")
+                }
+                fn visit_bool<E: de::Error>(self, v: bool) -> Result<RowsText, E> {
+                    Ok(if v { RowsText::default() } else { RowsText(None) })
+                }
+                fn visit_str<E: de::Error>(self, v: &str) -> Result<RowsText, E> {
+                    match v {
+                        "csv" => Ok(RowsText(Some(TableFormat::Csv))),
+                        "parquet" => Ok(RowsText(Some(TableFormat::Parquet))),
+                        _ => {
+                            let near = did_you_mean(v, ["csv", "parquet"]).map_or(String::new(), |n| format!("{n} "));
+                            Err(E::custom(format!(
+                                "unknown format of a table '{v}'; {near}known are csv, parquet and false"
+                            )))
+                        }
+                    }
+                }
+            }
+            deserializer.deserialize_any(Table)
         }
     }
 

@@ -1,4 +1,5 @@
 use super::*;
+use crate::tables::LAYOUTS;
 use carom::material::Library;
 use std::fs;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -55,10 +56,13 @@ fn case() -> Case {
     Case::from_toml(CASE, Path::new("case.toml"), &Library::builtin()).unwrap()
 }
 
-fn files(folder: &Path) -> [Vec<u8>; 6] {
-    let names =
-        [files::SUMMARY, files::IMPACTS, files::TRAJECTORIES, files::DEPOSITION, "trajectories.vtp", "deposit.vtp"];
-    names.map(|n| fs::read(folder.join(n)).unwrap())
+fn files(folder: &Path) -> Vec<Vec<u8>> {
+    let mut names: Vec<_> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    names.sort();
+    names
+        .into_iter()
+        .map(|name| [name.to_str().unwrap().into(), fs::read(folder.join(&name)).unwrap()].concat())
+        .collect()
 }
 
 fn options(out: &Path, threads: usize) -> RunOptions {
@@ -81,7 +85,7 @@ fn threads_shards_and_order_leave_no_trace() {
         }
         let mut reversed = folders.clone();
         reversed.reverse();
-        assert_eq!(merge(&reversed, &at(&format!("merged-{of}"))).unwrap(), whole);
+        assert_eq!(merge(&reversed, &at(&format!("merged-{of}"))).unwrap().0, whole);
         assert_eq!(files(&at("one")), files(&at(&format!("merged-{of}"))));
         assert!(
             merge(&folders[1..], &at("missing")).unwrap_err().to_string().contains(&format!("shard 1/{of} is missing"))
@@ -145,16 +149,14 @@ fn resuming_drops_torn_rows_and_goes_on() {
     run(&case, &options(&whole, 1), &Silent).unwrap();
     run(&case, &options(&torn, 1), &Silent).unwrap();
     // as if killed: the checkpoint of an earlier block, and half a row more than it knows of
-    let mut state = State::new(&case, Shard::WHOLE, 0..5);
-    let mut lengths = [crate::block::IMPACTS_HEADER.len(), crate::block::TRAJECTORIES_HEADER.len()];
+    let mut state = State::new(&case, None, 0..5);
+    state.lengths = LAYOUTS.each_ref().map(|l| l.header().len() as u64);
     for b in 0..2 {
-        let block =
-            block::track(&case, b * block::SIZE..(b + 1) * block::SIZE, Wanted { impacts: true, trajectories: true });
+        let block = block::track(&case, b * block::SIZE..(b + 1) * block::SIZE, [true; 3]);
         state.summary.merge(&block.summary);
-        lengths[0] += block.impacts.len();
-        lengths[1] += block.trajectories.len();
+        state.lengths.iter_mut().zip(&block.rows).for_each(|(length, rows)| *length += rows.len() as u64);
     }
-    (state.next, state.impacts, state.trajectories) = (2, lengths[0] as u64, lengths[1] as u64);
+    state.next = 2;
     fs::write(torn.join(files::CHECKPOINT), serde_json::to_string(&state).unwrap()).unwrap();
     let done = AtomicU64::new(0);
     run(&case, &RunOptions { resume: true, ..options(&torn, 2) }, &StopAfter(&done)).unwrap();
@@ -187,6 +189,126 @@ fn shards_are_read_with_care() {
     }
     let parts: Vec<_> = (1..=3).map(|index| Shard { index, of: 3 }.blocks(10)).collect();
     assert_eq!(parts, [0..3, 3..6, 6..10]);
+}
+
+fn case_with(output: &str) -> Case {
+    let text = CASE.replace("[output]", &format!("[output]\n{output}"));
+    Case::from_toml(&text, Path::new("case.toml"), &Library::builtin()).unwrap()
+}
+
+fn table(path: &Path, layout: usize) -> String {
+    let mut reader = carom_report::TableReader::open(path, LAYOUTS[layout].schema()).unwrap();
+    let mut all = carom_report::Table::with_schema(&LAYOUTS[layout].schema()).unwrap();
+    while let Some(batch) = reader.next_batch().unwrap() {
+        all.append(batch).unwrap();
+    }
+    all.to_csv().unwrap()
+}
+
+#[test]
+fn parquet_holds_what_csv_would_whole_merged_and_resumed() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    run(&case(), &options(&at("csv"), 2), &Silent).unwrap();
+    let case = case_with("impacts = \"parquet\"\nfates = \"parquet\"");
+    // an earlier run's table of the other format would be mistaken for this one's
+    fs::create_dir_all(at("parquet")).unwrap();
+    fs::write(at("parquet").join("impacts.parquet"), "old").unwrap();
+    run(&case, &options(&at("parquet"), 1), &Silent).unwrap();
+    for (layout, stem) in [(crate::tables::IMPACTS, "impacts"), (crate::tables::FATES, "fates")] {
+        let csv = table(&at("csv").join(format!("{stem}.csv")), layout);
+        assert!(csv.lines().count() > 5000);
+        assert!(csv == table(&at("parquet").join(format!("{stem}.parquet")), layout));
+        assert!(!at("parquet").join(format!("{stem}.csv")).exists());
+    }
+    let whole = files(&at("parquet"));
+    let folders: Vec<PathBuf> = (1..=3).map(|i| at(&format!("{i}-3"))).collect();
+    for (i, out) in (1..).zip(&folders) {
+        run(&case, &RunOptions { shard: Some(Shard { index: i, of: 3 }), ..options(out, 2) }, &Silent).unwrap();
+        assert!(out.join("impacts.csv").exists());
+    }
+    merge(&folders, &at("merged")).unwrap();
+    assert!(whole == files(&at("merged")));
+    let only = RunOptions { shard: Some(Shard { index: 1, of: 1 }), ..options(&at("only"), 2) };
+    run(&case, &only, &Silent).unwrap();
+    merge(&[at("only")], &at("again")).unwrap();
+    assert!(whole == files(&at("again")));
+    assert!(merge(&[at("parquet")], &at("never")).unwrap_err().to_string().contains("whole run"));
+    // resumed when done, and when the end was reached but the tables not yet converted
+    let resume = RunOptions { resume: true, ..options(&at("parquet"), 2) };
+    run(&case, &resume, &Silent).unwrap();
+    assert!(whole == files(&at("parquet")));
+    fs::copy(at("csv").join("impacts.csv"), at("parquet").join("impacts.csv")).unwrap();
+    fs::write(at("parquet").join("impacts.parquet"), "torn").unwrap();
+    run(&case, &resume, &Silent).unwrap();
+    assert!(whole == files(&at("parquet")));
+}
+
+#[test]
+fn fates_are_told_particle_by_particle() {
+    let folder = tempfile::tempdir().unwrap();
+    let summary = run(&case(), &options(folder.path(), 2), &Silent).unwrap();
+    let mut rows = csv::Reader::from_path(folder.path().join("fates.csv")).unwrap();
+    let mut mass = crate::exact_sum::ExactSum::default();
+    let (mut particle, mut impacts, mut captured) = (0, 0, 0);
+    for row in rows.records().map(Result::unwrap) {
+        assert_eq!(row[0].parse(), Ok(particle));
+        assert_eq!(&row[1], if particle < 3000 { "fine" } else { "coarse" });
+        assert_eq!(row[3].is_empty(), &row[2] == "airborne");
+        mass.add(row[10].parse().unwrap());
+        impacts += row[11].parse::<u64>().unwrap();
+        captured += u64::from(&row[2] == "captured");
+        particle += 1;
+    }
+    assert_eq!(particle, 5000);
+    assert_eq!(mass.value(), summary.injected.mass.value());
+    assert_eq!(impacts, summary.walls.iter().map(|w| w.impacts).sum::<u64>());
+    assert_eq!(captured, summary.count(crate::record::Fate::Captured));
+}
+
+#[test]
+fn tables_that_are_not_wanted_are_not_there() {
+    let folder = tempfile::tempdir().unwrap();
+    run(&case(), &options(folder.path(), 2), &Silent).unwrap();
+    run(&case_with("impacts = false\nfates = false\ntrajectories = 0"), &options(folder.path(), 2), &Silent).unwrap();
+    for stem in ["impacts", "fates", "trajectories"] {
+        assert!(!folder.path().join(format!("{stem}.csv")).exists(), "{stem}");
+    }
+    let text = CASE.replace("[output]", "[output]\nimpacts = \"parkett\"");
+    let error = Case::from_toml(&text, Path::new("case.toml"), &Library::builtin()).unwrap_err();
+    assert!(error.to_string().contains("parkett") && error.to_string().contains("parquet"), "{error}");
+    let line = text[..error.span.unwrap().start].lines().last().unwrap();
+    assert_eq!(line.trim(), "impacts =");
+}
+
+#[test]
+fn what_is_no_set_of_shards_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let part = |name: &str, case: &Case, index, of| {
+        run(case, &RunOptions { shard: Some(Shard { index, of }), ..options(&at(name), 2) }, &Silent).unwrap();
+    };
+    part("a", &case(), 1, 2);
+    part("b", &case(), 2, 2);
+    part("third", &case(), 2, 3);
+    part("other", &case_with("impacts = false"), 2, 2);
+    let refused = |names: &[&str], why: &str| {
+        let folders: Vec<PathBuf> = names.iter().map(|n| at(n)).collect();
+        let error = merge(&folders, &at("out")).unwrap_err().to_string();
+        assert!(error.contains(why), "{error}");
+        assert!(!at("out").exists());
+    };
+    refused(&["a"], "shard 2/2 is missing");
+    refused(&["b"], "shard 1/2 is missing");
+    refused(&["a", "b", "a"], "shard 1/2 a second time");
+    refused(&["a", "third"], "one of 3 shards");
+    refused(&["a", "other"], "another case");
+    refused(&["a", "nowhere"], "no checkpoint.json");
+    refused(&[], "nothing to merge");
+    assert!(merge(&[at("a"), at("b")], &at("b")).unwrap_err().to_string().contains("into itself"));
+    let state = State { next: 3, ..State::read(&at("b")).unwrap().unwrap() };
+    state.write(&at("b")).unwrap();
+    refused(&["a", "b"], "not finished");
 }
 
 /// A box as an STL text in millimetres.

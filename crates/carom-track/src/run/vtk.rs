@@ -3,26 +3,30 @@
 //! Made from the finished tables, a pass for each array, so that memory stays flat.
 
 use super::RunError;
-use super::files::{IMPACTS, TRAJECTORIES};
+use crate::tables::{IMPACTS, LAYOUTS, TRAJECTORIES, TableFormat};
 use std::fs::File;
 use std::io::{BufWriter, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Writes `trajectories.vtp` (a line for each recorded particle) and `deposit.vtp` (a point for each particle a wall kept)
 /// beside the tables they are made from.
 pub(super) fn write(folder: &Path) -> Result<(), RunError> {
-    if folder.join(TRAJECTORIES).exists() {
+    if table(folder, TRAJECTORIES).exists() {
         trajectories(folder)?;
     }
-    if folder.join(IMPACTS).exists() {
+    if table(folder, IMPACTS).exists() {
         deposit(folder)?;
     }
     Ok(())
 }
 
+fn table(folder: &Path, index: usize) -> PathBuf {
+    folder.join(LAYOUTS[index].file(TableFormat::Csv))
+}
+
 /// A table that is read several times.
 struct Source<'a> {
-    path: std::path::PathBuf,
+    path: PathBuf,
     wanted: &'a dyn Fn(&csv::StringRecord) -> bool,
 }
 
@@ -43,12 +47,12 @@ impl Source<'_> {
 
 /// A VTK file under way.
 struct Writer {
-    path: std::path::PathBuf,
+    path: PathBuf,
     file: BufWriter<File>,
 }
 
 impl Writer {
-    fn create(path: std::path::PathBuf) -> Result<Self, RunError> {
+    fn create(path: PathBuf) -> Result<Self, RunError> {
         let file = File::create(&path).map_err(RunError::io(&path))?;
         Ok(Self { path, file: BufWriter::new(file) })
     }
@@ -90,7 +94,7 @@ const HEAD: &str =
     "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\">\n<PolyData>\n";
 
 fn trajectories(folder: &Path) -> Result<(), RunError> {
-    let source = Source { path: folder.join(TRAJECTORIES), wanted: &|_| true };
+    let source = Source { path: table(folder, TRAJECTORIES), wanted: &|_| true };
     // particle numbers and where their points end
     let mut lines: Vec<(u64, u64)> = Vec::new();
     let mut points = 0;
@@ -124,7 +128,7 @@ fn trajectories(folder: &Path) -> Result<(), RunError> {
 fn deposit(folder: &Path) -> Result<(), RunError> {
     const FATE: usize = 12;
     let kept = |row: &csv::StringRecord| matches!(row.get(FATE), Some("capture" | "settle" | "trap"));
-    let source = Source { path: folder.join(IMPACTS), wanted: &kept };
+    let source = Source { path: table(folder, IMPACTS), wanted: &kept };
     let mut points = 0u64;
     source.rows(|_| {
         points += 1;

@@ -6,6 +6,7 @@ use super::{At, LawSpec, NormalKind, NormalSpec};
 use crate::error::SpecError;
 use crate::material::{Library, Material, MaterialRef};
 use crate::normal::adhesion::{Jkr, Work};
+use crate::normal::bons::Bons;
 use crate::normal::damping::Damping;
 use crate::normal::empirical::Curve;
 use crate::normal::ledger::{Adhesion, Ledger, Plastic};
@@ -258,6 +259,10 @@ impl LawSpec {
                         Plastic::ThorntonNing(ThorntonNing::new(pair.effective_modulus()?, pressure, pair.density()?));
                 }
                 Loss::PlasticTabor => ledger.plastic = Plastic::Tabor(self.tabor()?),
+                Loss::PlasticBons => {
+                    let strength = 2.0 * pair.plastic_constant()?;
+                    ledger.plastic = Plastic::Bons(Bons::new(pair.effective_modulus()?, strength, pair.density()?));
+                }
             }
         }
         Ok(ledger)

@@ -1,0 +1,128 @@
+//! The figures of the report.
+
+use super::tally::{ANGLE, Ends, Impacts, RESTITUTION, SizeBin};
+use carom_report::plot::Legend;
+use carom_report::{Axis, Color, Plot, Series};
+use carom_track::Summary;
+use carom_track::deposition::wilson;
+
+/// Size of a figure of which there are several, CSS pixels.
+const SIZE: (u32, u32) = (900, 380);
+
+/// Walls that one figure can hold apart.
+pub const TOGETHER: usize = Color::PALETTE.len();
+
+/// One histogram: edges, and the amounts of each wall.
+struct Histogram<'a> {
+    edges: &'a [f64],
+    amounts: Vec<&'a [f64]>,
+}
+
+/// The distributions of impact speed, angle and restitution over some walls, each with its caption; what has no data is
+/// left out.
+pub fn distributions(impacts: &Impacts, summary: &Summary, walls: &[usize]) -> Vec<(Plot, &'static str)> {
+    let mut plots = Vec::new();
+    if let Some(bars) = impacts.speeds.bars(40) {
+        let speed = Axis::new("normal impact speed", "m/s").log();
+        let amounts = walls.iter().map(|w| bars.amounts[*w].as_slice()).collect();
+        let plot = histogram(speed, "impacts", &Histogram { edges: &bars.edges, amounts }, summary, walls);
+        plots.push((plot, "Speed towards the wall at impact, in bins of equal ratio."));
+    }
+    let edges = |n: usize, width: f64| (0..=n).map(|i| i as f64 * width).collect::<Vec<_>>();
+    let amounts: Vec<&[f64]> = walls.iter().map(|w| impacts.walls[*w].angles.as_slice()).collect();
+    let angles = edges((90.0 / ANGLE) as usize, ANGLE);
+    let angle = Axis::new("impact angle", "°").range(0.0, 90.0);
+    let plot = histogram(angle, "impacts", &Histogram { edges: &angles, amounts }, summary, walls);
+    plots.push((plot, "Angle of the path at impact, measured from the surface: 90° is head-on."));
+    let amounts: Vec<&[f64]> = walls.iter().map(|w| impacts.walls[*w].restitutions.as_slice()).collect();
+    if amounts.iter().any(|a| a.iter().any(|v| *v > 0.0)) {
+        let bins = edges(amounts[0].len(), RESTITUTION);
+        let restitution = Axis::new("restitution", "").range(0.0, 1.0 + RESTITUTION);
+        let plot = histogram(restitution, "rebounds", &Histogram { edges: &bins, amounts }, summary, walls);
+        plots.push((plot, "Normal restitution of the rebounds; captures are not among them."));
+    }
+    plots
+}
+
+/// Bars for one wall, outlines for several; each wall's own amounts are 100 %.
+fn histogram(x: Axis, what: &str, data: &Histogram, summary: &Summary, walls: &[usize]) -> Plot {
+    let shares: Vec<Vec<f64>> = data
+        .amounts
+        .iter()
+        .map(|a| {
+            let total: f64 = a.iter().sum();
+            a.iter().map(|v| if total > 0.0 { 100.0 * v / total } else { 0.0 }).collect()
+        })
+        .collect();
+    let mut plot =
+        Plot::new("", x, Axis::new(format!("share of {what}"), "%").range(0.0, top(shares.iter().flatten())));
+    plot.size = SIZE;
+    for (place, (wall, heights)) in walls.iter().zip(&shares).enumerate() {
+        let name = &summary.walls[*wall].name;
+        if heights.iter().all(|h| *h == 0.0) {
+            continue;
+        }
+        let edges = data.edges.iter().copied();
+        let series = if walls.len() == 1 {
+            Series::bars(name, edges, heights.iter().copied())
+        } else {
+            let x = edges.flat_map(|e| [e, e]);
+            let y = heights.iter().flat_map(|h| [*h, *h]);
+            Series::line(name, x, [0.0].into_iter().chain(y).chain([0.0]))
+        };
+        plot = plot.with(series.color(Color::cycle(place)));
+    }
+    plot.legend(if walls.len() == 1 { Legend::Hidden } else { Legend::Outside })
+}
+
+/// The upper end of an axis from 0 on.
+fn top<'a>(heights: impl Iterator<Item = &'a f64>) -> f64 {
+    let most = heights.fold(0.0, |a: f64, b| a.max(*b));
+    if most > 0.0 { 1.08 * most } else { 1.0 }
+}
+
+/// The mass kept by a wall along the axis on which it lies widest; `None` where it kept nothing.
+pub fn deposit(ends: &Ends, wall: usize) -> Option<(Plot, &'static str)> {
+    let axes = ends.deposits.get(wall)?;
+    let spreads = axes.each_ref().map(super::bins::LinearBins::spread);
+    let main = (0..3).fold(0, |best, axis| if spreads[axis] > spreads[best] { axis } else { best });
+    let bars = axes[main].bars()?;
+    let total: f64 = bars.amounts[0].iter().sum();
+    let shares: Vec<f64> = bars.amounts[0].iter().map(|a| 100.0 * a / total).collect();
+    let label = ["x", "y", "z"][main];
+    let reach = bars.edges.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
+    let (unit, factor) = match reach {
+        r if r < 1e-3 => ("µm", 1e6),
+        r if r < 1.0 => ("mm", 1e3),
+        _ => ("m", 1.0),
+    };
+    let y = Axis::new("share of the mass it kept", "%").range(0.0, top(shares.iter()));
+    let mut plot = Plot::new("", Axis::scaled(label, unit, factor), y).with(Series::bars("", bars.edges, shares));
+    plot.size = SIZE;
+    Some((plot.legend(Legend::Hidden), label))
+}
+
+/// The share kept, by size, of each wall that kept any, with 95 % intervals; `None` where there is only one size.
+pub fn efficiency(sizes: &[SizeBin], summary: &Summary, walls: &[usize]) -> Option<Plot> {
+    if sizes.len() < 2 || walls.is_empty() {
+        return None;
+    }
+    let diameters: Vec<f64> = sizes.iter().map(|s| s.diameters / s.injected as f64).collect();
+    let (low, high) = (diameters.first()?, diameters.last()?);
+    let mut x = Axis::scaled("diameter", "µm", 1e6).range(low / 1.1, high * 1.1);
+    if high / low > 3.0 {
+        x = x.log();
+    }
+    let mut plot = Plot::new("", x, Axis::new("share kept", "%").range(0.0, 105.0));
+    for (place, wall) in walls.iter().enumerate() {
+        let share = |s: &SizeBin| 100.0 * s.kept[*wall] as f64 / s.injected as f64;
+        let (low, high): (Vec<f64>, Vec<f64>) = sizes
+            .iter()
+            .map(|s| wilson(s.kept[*wall], s.injected))
+            .map(|(low, high)| (100.0 * low, 100.0 * high))
+            .unzip();
+        let points = Series::points(&summary.walls[*wall].name, diameters.iter().copied(), sizes.iter().map(share));
+        plot = plot.with(points.interval(low, high).color(Color::cycle(place)));
+    }
+    Some(plot.legend(Legend::Outside))
+}
