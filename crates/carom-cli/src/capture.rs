@@ -6,6 +6,7 @@ use crate::grid::{Grid, GridArgs, Over, Swept};
 use crate::law::LawArgs;
 use crate::motion::{ImpactArgs, MotionArgs};
 use crate::output;
+use crate::removal::{self, RemovalArgs};
 use crate::text::Lines;
 use carom_report::{Axis, Column, Plot, Table};
 
@@ -13,6 +14,7 @@ const EXAMPLE: &str = "\
 Examples:
   carom capture --sphere copper --surface aluminium --diameter 10um --roughness-factor 0.8
   carom capture --sphere copper --surface aluminium --over diameter=1um..1mm --plot capture.svg
+  carom capture --sphere copper --surface silicon --diameter 50um --friction 0.2 --removal
   carom capture --sphere copper --over diameter=1..100um --by surface=aluminium,silicon,stainless-steel
 
 At and below the capture velocity (normal to the wall) the sphere sticks.";
@@ -31,6 +33,8 @@ pub struct Args {
     over: Option<Over>,
     #[command(flatten)]
     grid: GridArgs,
+    #[command(flatten)]
+    removal: RemovalArgs,
 }
 
 /// Runs the subcommand.
@@ -38,6 +42,9 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let motion = MotionArgs { diameter: args.diameter, ..MotionArgs::default() };
     let case = ImpactArgs { motion, law: args.law.clone() };
     match args.over {
+        Some(_) if args.removal.wanted() => {
+            Err(Failure::input("--removal answers for one diameter; leave out --over, or --removal"))
+        }
         Some(over) => curves(args, over, &case),
         None if args.grid.needs_over() => {
             Err(Failure::input("--by, --out and --plot need a range; give --over, such as --over diameter=1um..1mm"))
@@ -52,17 +59,24 @@ struct Answer {
     law: String,
     #[serde(flatten)]
     figures: Figures,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    removal: Option<removal::Answer>,
 }
 
 fn one(args: &Args, case: &ImpactArgs) -> Result<(), Failure> {
     let diameter = case.motion.wanted_diameter()?;
     let law = case.law.compile(false)?;
     let figures = Figures::new(&law.wall, diameter)?;
+    let removal = args.removal.answer(&law, diameter)?;
     if args.grid.json() {
-        return output::print_json(&Answer { diameter, law: law.normal_name(), figures });
+        return output::print_json(&Answer { diameter, law: law.normal_name(), figures, removal });
     }
     let mut lines = Lines::default();
     figures.tell(&mut lines);
+    figures.compare(&mut lines);
+    if let Some(removal) = &removal {
+        removal.tell(&mut lines);
+    }
     output::print(&format!("{}\n\n{lines}", law.heading(diameter)))
 }
 

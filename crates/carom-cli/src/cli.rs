@@ -1,7 +1,7 @@
 //! The command line as a whole.
 
 use crate::failure::Failure;
-use crate::{capture, impact, materials, merge, run, sweep};
+use crate::{capture, impact, materials, merge, run, sweep, validate};
 use clap::{Parser, Subcommand};
 
 const EXAMPLES: &str = "\
@@ -11,6 +11,7 @@ Examples:
   carom capture --sphere copper --surface aluminium --over diameter=1um..1mm
   carom materials copper
   carom run examples/wind-tunnel.toml --out out/
+  carom validate --out report/
 
 Quantities take a unit (90um, 2m/s, 190GPa) or are SI numbers. `carom SUBCOMMAND --help` says more.
 Exit codes: 0 done, 2 the input is wrong, 1 anything else.";
@@ -31,6 +32,7 @@ enum Command {
     Materials(materials::Args),
     Run(run::Args),
     Merge(merge::Args),
+    Validate(validate::Args),
 }
 
 impl Cli {
@@ -43,6 +45,7 @@ impl Cli {
             Command::Materials(args) => materials::run(args),
             Command::Run(args) => run::run(args),
             Command::Merge(args) => merge::merge(args),
+            Command::Validate(args) => validate::run(args),
         }
     }
 }

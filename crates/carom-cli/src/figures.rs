@@ -3,6 +3,7 @@
 use crate::failure::Failure;
 use crate::text::{Lines, number, quantity, scaled};
 use carom::WallLaw;
+use carom::wall::NormalLaw;
 
 /// Window of rebound, yield velocity, adhesion numbers, contact constants. Keys as in the JSON.
 #[derive(serde::Serialize)]
@@ -14,6 +15,10 @@ pub struct Figures {
     /// Is there a speed of rebound at all?
     pub rebounds: bool,
     pub yield_velocity: Option<f64>,
+    /// For comparison: what user-defined functions of flow solvers compute, m/s.
+    pub el_batsh_capture_velocity: Option<f64>,
+    #[serde(skip)]
+    plastic_ends_it: bool,
     pub roughness_factor: f64,
     pub adhesion_numbers: Option<AdhesionNumbers>,
     pub pair: Option<Pair>,
@@ -49,6 +54,8 @@ impl Figures {
             exhausted_velocity: window.map(|w| w.exhausted_velocity).filter(|v| v.is_finite()),
             rebounds: window.is_some(),
             yield_velocity: wall.yield_velocity(diameter, None).map_err(refused)?,
+            el_batsh_capture_velocity: wall.el_batsh_capture_velocity(diameter),
+            plastic_ends_it: matches!(wall.normal(), NormalLaw::Ledger(l) if l.plastic_can_exhaust()),
             roughness_factor: wall.roughness_factor(),
             adhesion_numbers: numbers.map(|n| AdhesionNumbers {
                 tabor: n.tabor,
@@ -77,6 +84,19 @@ impl Figures {
         self.adhesion_numbers.as_ref().map(|n| n.regime)
     }
 
+    /// Adds the comparison with what user-defined functions compute.
+    pub fn compare(&self, lines: &mut Lines) {
+        if let Some(v) = self.el_batsh_capture_velocity {
+            lines.add(
+                "El-Batsh form",
+                format!(
+                    "as in UDFs: {} (its 0.51 is one material's adhesion, whatever the pair: for comparison only)",
+                    quantity(v, "m/s")
+                ),
+            );
+        }
+    }
+
     /// Adds them as lines.
     pub fn tell(&self, lines: &mut Lines) {
         match self.capture_velocity {
@@ -85,10 +105,12 @@ impl Figures {
             Some(v) => lines.add("capture velocity", quantity(v, "m/s")),
         }
         if let Some(v) = self.exhausted_velocity {
-            lines.add(
-                "exhausted above",
-                format!("{} (damping takes everything: the end of the model)", quantity(v, "m/s")),
-            );
+            let why = if self.plastic_ends_it && self.yield_velocity.is_some_and(|y| v > y) {
+                "the plastic loss leaves less than adhesion or damping takes"
+            } else {
+                "damping takes everything: the end of the model"
+            };
+            lines.add("exhausted above", format!("{} ({why})", quantity(v, "m/s")));
         }
         if let Some(v) = self.yield_velocity {
             lines.add("yield velocity", quantity(v, "m/s"));

@@ -8,6 +8,7 @@ use crate::text::scaled;
 use crate::values;
 use carom::material::{Library, MaterialRef};
 use carom::resolved::AdhesionMode;
+use carom::roughness::RoughnessModel;
 use carom::spec::{At, CurveSpec, LawSpec, NormalKind, NormalSpec, TangentialKind, parse_named_law};
 use carom::units::{InverseSpeed, Length, Number, Pressure, Speed, SurfaceEnergy};
 use carom::{SpecError, WallLaw};
@@ -50,7 +51,7 @@ pub struct LawArgs {
     wall_law: Option<(PathBuf, String)>,
     /// ea, eap, thornton-ning, tabor, constant, by-angle or resolved; or losses, separated by commas:
     /// adhesion-work, adhesion-damping, hertz-damping, adhesion-jkr, plastic-kadomtsev, plastic-thornton-ning,
-    /// plastic-tabor [default: ea]
+    /// plastic-tabor, plastic-bons [default: ea]
     #[arg(long, value_name = "LAW", help_heading = "Normal law", value_parser = values::normal_law)]
     law: Option<NormalSpec>,
     /// Restitution of the constant law, or a curve for by-angle: grant-tabakoff, or '{ polynomial = [...] }'
@@ -94,6 +95,12 @@ pub struct LawArgs {
     /// Standard deviation of the heights, from which C_R follows
     #[arg(long, value_name = "LENGTH", help_heading = "Surfaces")]
     roughness: Option<Length>,
+    /// How C_R follows from the roughness: rabinovich or fuller-tabor [default: rabinovich]
+    #[arg(long, value_name = "MODEL", help_heading = "Surfaces")]
+    roughness_model: Option<RoughnessModel>,
+    /// Radius of the asperities, for fuller-tabor
+    #[arg(long, value_name = "LENGTH", help_heading = "Surfaces")]
+    asperity_radius: Option<Length>,
     /// Radius of curvature of the surface: inf is flat, negative is concave [default: inf]
     #[arg(long, value_name = "LENGTH", help_heading = "Surfaces", value_parser = values::curvature)]
     surface_curvature: Option<carom::spec::CurvatureRadius>,
@@ -137,7 +144,7 @@ impl LawArgs {
         };
         // each of the two says what C_R is, so a flag for one puts the file's other aside
         if self.roughness_factor.is_some() {
-            spec.roughness = None;
+            (spec.roughness, spec.roughness_model, spec.asperity_radius) = (None, None, None);
         }
         if self.roughness.is_some() {
             spec.roughness_factor = None;
@@ -154,6 +161,7 @@ impl LawArgs {
             hertz_damping = hertz_damping, adhesion = adhesion, yield_velocity = yield_velocity, meyer_index = meyer_index,
             limiting_pressure = limiting_pressure, tangential = tangential, friction = friction, walton_beta = walton_beta,
             tangential_restitution = tangential_restitution, roughness_factor = roughness_factor, roughness = roughness,
+            roughness_model = roughness_model, asperity_radius = asperity_radius,
             surface_curvature = surface_curvature, interfacial_parameter = interfacial_parameter,
             equilibrium_spacing = equilibrium_spacing, work_of_adhesion = work_of_adhesion, stiffness = stiffness,
             plastic_constant = plastic_constant,

@@ -12,11 +12,13 @@ mod materials;
 mod merge;
 mod motion;
 mod output;
+mod removal;
 mod report;
 mod run;
 mod sweep;
 mod text;
 mod trajectories;
+mod validate;
 mod values;
 
 use clap::{CommandFactory as _, FromArgMatches as _};

@@ -135,6 +135,25 @@ fn energy_sums_to_one_for_every_law() {
 }
 
 #[test]
+fn removal_is_an_object_of_its_own() {
+    let answer =
+        json(&format!("capture {STEEL} --friction 0.3 --removal --fluid-density 1.2 --fluid-viscosity 1.8e-5 --json"));
+    let removal = &answer["removal"];
+    // (3/2)πw r C_R with w = 3.03 J/m², C_R = 0.15
+    let force = 1.5 * std::f64::consts::PI * 3.03 * 0.15 * 35e-6;
+    assert!((number(&removal["pull_off_force"]) / force - 1.0).abs() < 1e-12);
+    assert_eq!((number(&removal["fluid_density"]), number(&removal["fluid_viscosity"])), (1.2, 1.8e-5));
+    let speeds = ["rolling", "sliding", "lifting"].map(|m| number(&removal[m]["friction_velocity"]));
+    assert!(0.0 < speeds[0] && speeds[0] < speeds[1] && speeds[1] < speeds[2], "{removal}");
+    let d_plus = speeds[0] * 70e-6 * 1.2 / 1.8e-5;
+    assert!((number(&removal["rolling"]["wall_units"]) / d_plus - 1.0).abs() < 1e-12);
+    let without = json(&format!("capture {STEEL} --removal --json"));
+    assert!(without["removal"]["sliding"].is_null());
+    assert!(json(&format!("capture {STEEL} --json"))["removal"].is_null());
+    assert!(number(&answer["el_batsh_capture_velocity"]) > 0.0);
+}
+
+#[test]
 fn doubts_are_codes() {
     let answer = json(&format!("impact {STEEL} --speed 200 --adhesion-damping 1.3 --hertz-damping 0.007 --json"));
     assert_eq!(answer["validity"], serde_json::json!(["damping-exhausted", "large-contact"]));

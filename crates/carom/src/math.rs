@@ -142,6 +142,42 @@ fn exp2(t: f64) -> f64 {
     f64::from_bits(p.to_bits().wrapping_add(shifted.to_bits() << 52))
 }
 
+/// Sine and cosine of an angle in [−2π, 2π] (beyond, the reduction loses digits), to about one unit in the last place of 1.
+///
+/// ```
+/// let (s, c) = carom::math::sin_cos(std::f64::consts::FRAC_PI_6);
+/// assert!((s - 0.5).abs() < 1e-15 && (c - 0.75f64.sqrt()).abs() < 1e-15);
+/// ```
+#[inline(always)]
+pub fn sin_cos(x: f64) -> (f64, f64) {
+    use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
+    /// π/2 less its double.
+    const PI_2_LOW: f64 = 6.123_233_995_736_766e-17;
+    let k = x.mul_add(FRAC_2_PI, SHIFT) - SHIFT;
+    let r = k.mul_add(-PI_2_LOW, k.mul_add(-FRAC_PI_2, x));
+    let z = r * r;
+    // Taylor series on |r| ≤ π/4, 1/n! with alternating signs
+    let series = |c: [f64; 8]| c.iter().rev().fold(0.0f64, |sum, &a| sum.mul_add(z, a));
+    const FACTORIALS: [f64; 18] = {
+        let mut f = [1.0; 18];
+        let mut n = 1;
+        while n < 18 {
+            f[n] = f[n - 1] * n as f64;
+            n += 1;
+        }
+        f
+    };
+    let sign = |n: usize| if n.is_multiple_of(2) { 1.0 } else { -1.0 };
+    let s = (r * z).mul_add(series(std::array::from_fn(|n| sign(n + 1) / FACTORIALS[2 * n + 3])), r);
+    let c = z.mul_add(series(std::array::from_fn(|n| sign(n + 1) / FACTORIALS[2 * n + 2])), 1.0);
+    match (k as i64).rem_euclid(4) {
+        0 => (s, c),
+        1 => (c, -s),
+        2 => (-s, -c),
+        _ => (-c, s),
+    }
+}
+
 /// Angle in radians, [0, π/2], of the direction (`along`, `up`), both ≥ 0 and not both zero: the angle of incidence
 /// measured from the surface when `along` is the tangential and `up` the normal speed.
 ///
@@ -217,6 +253,16 @@ mod tests {
             let got = angle(3.0 * c.max(0.0), 3.0 * s);
             assert!((got - a).abs() <= 1e-15 + 4e-16 * a, "{i}: {got} {a}");
         }
+    }
+
+    #[test]
+    fn sin_cos_agrees_with_the_system() {
+        for i in -6283..=6283 {
+            let x = f64::from(i) * 1e-3;
+            let (s, c) = sin_cos(x);
+            assert!((s - x.sin()).abs() < 3e-16 && (c - x.cos()).abs() < 3e-16, "{x}: {s} {c}");
+        }
+        assert_eq!(sin_cos(0.0), (0.0, 1.0));
     }
 
     #[test]

@@ -5,7 +5,9 @@
 //! energy and the restitution is what they leave: e² = 1 − Σ ε(v). One file per mechanism.
 
 pub mod adhesion;
+pub mod bons;
 pub mod damping;
+pub mod el_batsh;
 pub mod empirical;
 pub mod ledger;
 pub mod plastic;

@@ -4,6 +4,7 @@
 //!   directly (fits: 0.43–0.82 for polished surfaces, 0.15 for silicon called 1 nm rough). From σ_r it follows here Rabinovich's form
 //!   without the small-asperity term, C_R = 1/(1 + 1.485 σ_r/z₀)², with z₀ set so that C_R(5 Å) = 0.05, the one pair of numbers printed
 //!   (Cheng, Brach & Dunn 2002). Beyond 0.5 nm that is an extrapolation and flagged: at 1 nm it gives 0.016 where the paper fits 0.15.
+//!   The other choice is Fuller & Tabor's integral, [`fuller_tabor`].
 //! - Tabor's parameter μ_T = (r w²/(E*² z₀³))^{1/3} (Eq. 39): JKR for large (above 5), DMT for small (below 0.1), after
 //!   Johnson & Greenwood (1997), J. Colloid Interface Sci. 192, 326–333, <https://doi.org/10.1006/jcis.1997.4984>.
 //! - Adhesion parameter θ = E* σ_r^{3/2}/(r^{1/2} w) (Eq. 40): adhesion fades as it grows past 1. Fuller & Tabor (1975, Proc. R. Soc. A
@@ -17,6 +18,18 @@
 //! assert!((factor(5e-10, CALIBRATED_SPACING) - 0.05).abs() < 1e-12);
 //! assert_eq!(factor(0.0, CALIBRATED_SPACING), 1.0);
 //! ```
+
+pub mod fuller_tabor;
+
+/// Which way C_R follows from a roughness.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum RoughnessModel {
+    /// `rabinovich`: C_R = 1/(1 + 1.485 σ_r/z₀)².
+    #[default]
+    Rabinovich,
+    /// `fuller-tabor`: [`fuller_tabor`], which needs the asperities' radius.
+    FullerTabor,
+}
 
 /// z₀ that makes C_R(5 Å) = 0.05, m: 1.485 · 5 Å/(√20 − 1).
 pub const CALIBRATED_SPACING: f64 = 2.138_453_129_782_730_3e-10;

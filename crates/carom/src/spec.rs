@@ -23,6 +23,7 @@ mod check;
 mod compile;
 mod curve;
 mod normal;
+mod roughness;
 mod tangential;
 mod values;
 
@@ -33,6 +34,7 @@ pub use values::{At, CurvatureRadius};
 use crate::error::{SpecError, did_you_mean};
 use crate::material::MaterialRef;
 use crate::resolved::AdhesionMode;
+use crate::roughness::RoughnessModel;
 use crate::units::{InverseSpeed, Length, Number, Pressure, Speed, SurfaceEnergy};
 use std::collections::BTreeMap;
 
@@ -58,6 +60,10 @@ pub struct LawSpec {
     pub roughness_factor: Option<At<Number>>,
     /// σ_r.
     pub roughness: Option<At<Length>>,
+    /// How C_R follows from σ_r; `rabinovich` when absent.
+    pub roughness_model: Option<At<RoughnessModel>>,
+    /// Radius β of the asperities, for `fuller-tabor`.
+    pub asperity_radius: Option<At<Length>>,
     /// C_A.
     pub adhesion_damping: Option<At<InverseSpeed>>,
     /// C_H.
@@ -104,6 +110,10 @@ pub enum TangentialKind {
 values::names! {
     TangentialKind, "tangential law",
     "rolling" => Rolling, "walton" => Walton, "micro-slip" => MicroSlip, "constant" => Constant, "by-angle" => ByAngle,
+}
+values::names! {
+    RoughnessModel, "roughness model",
+    "rabinovich" => Rabinovich, "fuller-tabor" => FullerTabor,
 }
 values::names! {
     AdhesionMode, "reading of adhesion",

@@ -59,6 +59,17 @@ pub enum Tangential {
     Restitution(Curve),
 }
 
+impl Tangential {
+    /// Coulomb friction coefficient f; `None` for laws that give the rebound outright.
+    pub fn friction(&self) -> Option<f64> {
+        match self {
+            Self::Friction { friction, .. } => Some(*friction),
+            Self::MicroSlip(law) => Some(law.friction()),
+            Self::Restitution(_) => None,
+        }
+    }
+}
+
 /// A law of friction, as a type of its own so that a batch's loop holds no branch on its kind.
 pub(crate) trait FrictionLaw {
     /// How a contact ends that does not slide to the end.

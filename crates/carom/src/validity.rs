@@ -5,11 +5,11 @@
 pub struct Validity(u8);
 
 /// Codes, their bits and their meaning.
-pub const CODES: [(&str, Validity, &str); 7] = [
+pub const CODES: [(&str, Validity, &str); 8] = [
     (
         "no-rebound-window",
         Validity::NO_REBOUND_WINDOW,
-        "adhesion and damping together leave no speed at which this sphere rebounds",
+        "adhesion, damping and plastic loss together leave no speed at which this sphere rebounds",
     ),
     (
         "damping-exhausted",
@@ -37,6 +37,11 @@ pub const CODES: [(&str, Validity, &str); 7] = [
         "C_A v > 1: reversible, damped adhesion would repel on approach",
     ),
     ("pulling-hertz", Validity::PULLING_HERTZ, "C_H v > 1: the damped Hertz force would pull on separation"),
+    (
+        "plastic-exhausted",
+        Validity::PLASTIC_EXHAUSTED,
+        "the speed is above the window of rebound: Bons' plastic loss, e ~ 1/v, leaves less than the other losses take, and the sphere is captured again",
+    ),
 ];
 
 impl Validity {
@@ -56,6 +61,8 @@ impl Validity {
     pub const REPELLING_ADHESION: Self = Self(32);
     /// `pulling-hertz` (resolved law)
     pub const PULLING_HERTZ: Self = Self(64);
+    /// `plastic-exhausted` (Bons' plastic loss)
+    pub const PLASTIC_EXHAUSTED: Self = Self(128);
 
     /// Both sets.
     #[must_use]

@@ -2,6 +2,7 @@
 
 use crate::impact::{Energy, Fate, Impact, ImpactError, Outcome, Vec3};
 use crate::normal::empirical::Curve;
+use crate::normal::ledger::Balance;
 use crate::normal::{Ledger, Losses, Size};
 use crate::pair::Pair;
 use crate::resolved::Resolved;
@@ -41,8 +42,14 @@ pub(crate) struct NormalResponse {
 
 impl NormalResponse {
     #[inline(always)]
-    pub fn of_losses(losses: Losses) -> Self {
-        Self { e: losses.restitution(), losses, other: 0.0, friction_share: 1.0 }
+    pub fn of_balance(balance: &Balance) -> Self {
+        Self { e: balance.restitution(), losses: balance.losses, other: 0.0, friction_share: 1.0 }
+    }
+
+    /// Fraction of the normal kinetic energy lost, above 1 for a capture.
+    #[inline(always)]
+    pub fn lost(&self) -> f64 {
+        self.losses.total() + self.other
     }
 
     #[inline(always)]
@@ -56,7 +63,7 @@ impl NormalLaw {
     #[inline(always)]
     pub(crate) fn respond(&self, v_n: f64, tangent2: f64, size: &Size) -> NormalResponse {
         match self {
-            Self::Ledger(ledger) => NormalResponse::of_losses(ledger.losses(v_n, size)),
+            Self::Ledger(ledger) => NormalResponse::of_balance(&ledger.balance(v_n, size)),
             Self::Table(curve) => NormalResponse::of_restitution(curve.at(v_n, tangent2.sqrt(), 0.0, 1.0)),
             Self::Resolved(resolved) => resolved.respond(v_n, size),
         }
@@ -179,7 +186,8 @@ impl WallLaw {
 
     #[inline(always)]
     fn impact_body(&self, impact: &Impact) -> Result<Outcome, ImpactError> {
-        let normal = checks::unit(&impact.normal)?;
+        let square = dot(&impact.normal, &impact.normal);
+        let normal = if checks::is_unit(square) { impact.normal } else { checks::unit(&impact.normal, square)? };
         let size = self.size(impact.diameter, impact.density)?;
         let u = impact.wall_velocity;
         let relative = [impact.velocity[0] - u[0], impact.velocity[1] - u[1], impact.velocity[2] - u[2]];
@@ -194,25 +202,25 @@ impl WallLaw {
         let share = 1.0 / incident;
         let response = self.normal.respond(v_n, tangent2, &size);
         let validity = self.judge(v_n, &size, &response);
-        let energy = normal_energy(&response, v_n * v_n * share);
+        let normal_share = v_n * v_n * share;
+        let energy = normal_energy(&response, normal_share);
         if response.e <= 0.0 {
             return Ok(captured(u, energy, validity));
         }
         let out =
             self.slide(&Sliding { tangent, tangent2, normal, v_n, spin: impact.spin, radius: size.radius }, &response);
-        let rebound_n = response.e * v_n;
-        let velocity = add_scaled(&out.tangent, rebound_n, &normal);
-        let kept = rebound_n.mul_add(rebound_n, dot(&out.tangent, &out.tangent))
-            + 0.4 * (size.radius * size.radius) * dot(&out.spin, &out.spin);
+        let velocity = add_scaled(&out.tangent, response.e * v_n, &normal);
+        let friction = out.friction * share;
         Ok(Outcome {
             fate: Fate::Rebound,
             velocity: [velocity[0] + u[0], velocity[1] + u[1], velocity[2] + u[2]],
             spin: out.spin,
             restitution: response.e,
             impulse_ratio: out.ratio,
-            tangential_restitution: if tangent2 > 0.0 { dot(&out.tangent, &tangent) / tangent2 } else { f64::NAN },
+            tangential_restitution: out.restitution,
             contact: out.contact,
-            energy: Energy { friction: out.friction * share, kept: kept * share, ..energy },
+            // what is left, rather than the motion's own energy: the same, and nothing waits for it
+            energy: Energy { friction, kept: (1.0 - response.lost() * normal_share - friction).max(0.0), ..energy },
             validity,
         })
     }
@@ -235,6 +243,7 @@ impl WallLaw {
                     spin: s.spin,
                     ratio: (v_t - out).abs() / normal_impulse,
                     friction: v_t * v_t - out * out,
+                    restitution: if v_t > 0.0 { e_t } else { f64::NAN },
                     contact: Contact::None,
                 }
             }
@@ -263,16 +272,26 @@ impl Sliding {
         let lever = cross(&self.spin, &self.normal);
         let slip = add_scaled(&self.tangent, -self.radius, &lever);
         let speed = norm(&slip);
+        let per_tangent = if self.tangent2 > 0.0 { 1.0 / self.tangent2 } else { f64::NAN };
         if speed == 0.0 {
-            return Slid { tangent: self.tangent, spin: self.spin, ratio: 0.0, friction: 0.0, contact: Contact::None };
+            return Slid {
+                tangent: self.tangent,
+                spin: self.spin,
+                ratio: 0.0,
+                friction: 0.0,
+                restitution: self.tangent2 * per_tangent,
+                contact: Contact::None,
+            };
         }
         let (p, slides) = law.impulse(speed, normal_impulse, response);
         let direction = [slip[0] / speed, slip[1] / speed, slip[2] / speed];
+        let along = dot(&self.tangent, &direction) * per_tangent;
         Slid {
             tangent: add_scaled(&self.tangent, -p, &direction),
             spin: add_scaled(&self.spin, p * (2.5 / self.radius), &cross(&self.normal, &direction)),
             ratio: p / normal_impulse,
             friction: p * 3.5f64.mul_add(-p, 2.0 * speed),
+            restitution: along.mul_add(-p, 1.0),
             contact: if slides { Contact::Sliding } else { F::HELD },
         }
     }
@@ -284,6 +303,8 @@ struct Slid {
     ratio: f64,
     /// Twice the energy per mass lost to friction.
     friction: f64,
+    /// e_t along the incoming tangential direction, NaN without one.
+    restitution: f64,
     contact: Contact,
 }
 
@@ -291,7 +312,7 @@ struct Slid {
 /// more than there is (capture), they are scaled down to what there was.
 #[inline(always)]
 pub(crate) fn normal_energy(response: &NormalResponse, share: f64) -> Energy {
-    let total = response.losses.total() + response.other;
+    let total = response.lost();
     let scale = if total > 1.0 { share / total } else { share };
     let l = &response.losses;
     let mut energy = Energy {

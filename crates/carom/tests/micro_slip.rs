@@ -7,10 +7,35 @@ use carom::pair::{Overrides, Pair};
 use carom::tangential::micro_slip::resolved;
 use carom::{Contact, Impact, Outcome, WallLaw};
 use common::law;
+use std::collections::BTreeMap;
 
 const EXPERIMENT: &str = include_str!("../../../data/experiments/kharaz-2001.toml");
 
 #[derive(serde::Deserialize)]
+struct File {
+    law: BTreeMap<String, Inputs>,
+    panel: [Panel; 1],
+}
+
+#[derive(serde::Deserialize)]
+struct Inputs {
+    sphere: String,
+    surface: String,
+    friction: f64,
+    restitution: f64,
+}
+
+#[derive(serde::Deserialize)]
+struct Panel {
+    measured: [Measured; 1],
+}
+
+#[derive(serde::Deserialize)]
+struct Measured {
+    angle_from_normal_deg: Vec<f64>,
+    value: Vec<f64>,
+}
+
 struct Experiment {
     sphere: String,
     surface: String,
@@ -19,15 +44,12 @@ struct Experiment {
     measured: Measured,
 }
 
-#[derive(serde::Deserialize)]
-struct Measured {
-    angle_from_normal_deg: Vec<f64>,
-    tangential_restitution: Vec<f64>,
-}
-
 impl Experiment {
     fn read() -> Self {
-        toml::from_str(EXPERIMENT).expect("the experiment's file")
+        let mut file: File = toml::from_str(EXPERIMENT).expect("the experiment's file");
+        let Inputs { sphere, surface, friction, restitution } = file.law.remove("rolling").expect("its law");
+        let [Panel { measured: [measured] }] = file.panel;
+        Self { sphere, surface, friction, restitution, measured }
     }
 
     fn wall(&self, restitution: f64, tangential: &str) -> WallLaw {
@@ -38,7 +60,7 @@ impl Experiment {
     }
 
     fn points(&self) -> impl Iterator<Item = (f64, f64)> {
-        self.measured.angle_from_normal_deg.iter().copied().zip(self.measured.tangential_restitution.iter().copied())
+        self.measured.angle_from_normal_deg.iter().copied().zip(self.measured.value.iter().copied())
     }
 
     /// Greatest deviation of `model` (degrees from the normal to e_t).

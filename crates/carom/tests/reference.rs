@@ -61,6 +61,37 @@ fn eap_closed_forms() {
 }
 
 #[test]
+fn bons_rebounds_between_two_captures() {
+    let text = |w: f64| {
+        format!(
+            "sphere = \"rho=2500,E=70GPa,nu=0.2,sigma=60MPa\"\nsurface = \"E=200GPa,nu=0.3\"\nwork_of_adhesion = {w}\nnormal = [\"plastic-bons\", \"adhesion-work\"]\nfriction = 0\n"
+        )
+    };
+    let wall = law(&text(0.5));
+    let at = |v: f64| wall.impact(&Impact::new(2e-6, [0.0, -v, 0.0], [0.0, 1.0, 0.0])).expect("approaching");
+    let e_star = 1.0 / (0.96 / 70e9 + 0.91 / 200e9);
+    let v_y = wall.yield_velocity(2e-6, None).expect("in range").expect("plastic");
+    assert!((v_y / (60e6 / (2500.0f64 * e_star).sqrt()) - 1.0).abs() < 1e-12);
+    let window = wall.window(2e-6, None).expect("in range").expect("it rebounds");
+    assert!(window.capture_velocity < v_y && v_y < window.exhausted_velocity, "{window:?} {v_y}");
+    for (v, restitution_is_zero, codes) in [
+        (0.999 * window.capture_velocity, true, &[][..]),
+        (1.001 * window.capture_velocity, false, &[]),
+        (0.999 * window.exhausted_velocity, false, &[]),
+        (1.001 * window.exhausted_velocity, true, &["plastic-exhausted"]),
+    ] {
+        let out = at(v);
+        assert_eq!(out.restitution == 0.0, restitution_is_zero, "{v}: {out:?}");
+        assert_eq!(out.validity.codes().collect::<Vec<_>>(), codes, "{v}");
+    }
+    // adhesion so strong that it still holds at yield
+    let none = law(&text(50.0));
+    assert_eq!(none.window(2e-6, None), Ok(None));
+    let out = none.impact(&Impact::new(2e-6, [0.0, -v_y, 0.0], [0.0, 1.0, 0.0])).expect("approaching");
+    assert_eq!(out.validity.codes().collect::<Vec<_>>(), ["no-rebound-window"]);
+}
+
+#[test]
 fn a_density_of_the_impact_is_the_same_as_a_law_of_that_density() {
     for normal in ["ea", "eap", "thornton-ning", "resolved"] {
         let with = |rho: f64| {

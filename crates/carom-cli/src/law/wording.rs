@@ -3,9 +3,11 @@
 use carom::SpecError;
 
 /// Keys that are written as flags wherever they appear.
-const KEYS: [&str; 13] = [
+const KEYS: [&str; 15] = [
     "walton_beta",
     "roughness_factor",
+    "roughness_model",
+    "asperity_radius",
     "adhesion_damping",
     "hertz_damping",
     "surface_curvature",

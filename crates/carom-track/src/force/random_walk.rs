@@ -4,10 +4,14 @@
 //! A sphere meets one eddy after another. Each adds u'_i = ζ_i √(2k/3), ζ standard normal, to the mean velocity until it
 //! dies or the sphere has crossed it, whichever is first:
 //!
-//! - life 2 T_L, or −T_L ln r with r uniform ([`Life`]; both give the integral time scale T_L), T_L = C_L k/ε, C_L = 0.15
-//!   for k–ε;
-//! - crossing time t_c = −τ ln(1 − L_e/(τ |u − v|)), L_e = C_μ^{3/4} k^{3/2}/ε, C_μ = 0.09; a sphere too slow to
-//!   leave never crosses.
+//! - life 2 T_L, or −T_L ln r with r uniform ([`Life`]; both give the integral time scale T_L), T_L = C_L T, C_L = 0.15
+//!   for k–ε, T = max(k/ε, 6 √(ν/ε));
+//! - crossing time t_c = −τ ln(1 − L_e/(τ |u − v|)), L_e = C_μ^{3/4} L, C_μ = 0.09, L = max(k^{3/2}/ε, 70 (ν³/ε)^{1/4}); a sphere
+//!   too slow to leave never crosses.
+//!
+//! The second terms are Kolmogorov's scales, which no eddy falls short of (Durbin 1991, Theor. Comput. Fluid Dyn. 3, 1–13,
+//! doi:10.1007/BF00271513): they act below y⁺ of about 7 (T) and 50 (L). Without them eddies shrink to nothing at a wall, and
+//! a sphere that lingers there would meet them without end.
 //!
 //! # Near walls
 //! Isotropic fluctuations carry far too many small spheres to a wall: real turbulence is damped along the wall's normal.
@@ -96,7 +100,10 @@ impl RandomWalk {
         if !(local.k > 0.0 && local.epsilon > 0.0) {
             return Eddy { deviates, life: f64::INFINITY, length: f64::INFINITY };
         }
-        let mut t_l = self.time_scale * local.k / local.epsilon;
+        let kolmogorov = (nu / local.epsilon).sqrt();
+        let mut t_l = self.time_scale * (local.k / local.epsilon).max(6.0 * kolmogorov);
+        // (ν³/ε)^{1/4} = √ν (ν/ε)^{1/4}
+        let length = (local.k * local.k.sqrt() / local.epsilon).max(70.0 * (nu * kolmogorov).sqrt());
         let y_plus = wall_units(local, nu);
         if self.near_wall == NearWall::KallioReeks && y_plus < KALLIO_REEKS_END {
             t_l = kallio_reeks_time(y_plus) * nu / (local.friction_velocity * local.friction_velocity);
@@ -107,7 +114,7 @@ impl RandomWalk {
         };
         // C_μ^{3/4} with C_μ = 0.09
         const LENGTH: f64 = 0.164_316_767_251_549_83;
-        Eddy { deviates, life, length: LENGTH * local.k * local.k.sqrt() / local.epsilon }
+        Eddy { deviates, life, length: LENGTH * length }
     }
 
     /// How long a sphere of a relaxation time (s) that moves at a speed (m/s) against the fluid stays in the eddy, s.
@@ -251,6 +258,19 @@ mod tests {
         let walk = RandomWalk { near_wall: NearWall::KallioReeks, ..RandomWalk::default() };
         let eddy = walk.eddy(&near_wall(2.0), NU, [0.0; 3], 0.5);
         assert!((eddy.life - 20.0 * NU / 0.01).abs() < 1e-15);
+    }
+
+    #[test]
+    fn eddies_at_a_wall_keep_kolmogorovs_scales() {
+        // in wall units: T⁺ = 6/√ε⁺, L⁺ = 70/ε⁺^{1/4} where k vanishes; above, k and ε rule
+        let walk = RandomWalk { near_wall: NearWall::Isotropic, ..RandomWalk::default() };
+        let local = Local { k: 1e-12, epsilon: 1.0 / 6.0, ..Local::uniform([1.0, 0.0, 0.0]) };
+        let eddy = walk.eddy(&local, 1.0, [0.0; 3], 0.5);
+        assert!((eddy.life - 2.0 * 0.15 * 6.0 * 6.0f64.sqrt()).abs() < 1e-12, "{eddy:?}");
+        assert!((eddy.length - 0.09f64.powf(0.75) * 70.0 * 6.0f64.powf(0.25)).abs() < 1e-12, "{eddy:?}");
+        let far = walk.eddy(&Local { k: 2.0, epsilon: 0.008, ..local }, 1.0, [0.0; 3], 0.5);
+        assert!((far.life - 2.0 * 0.15 * 250.0).abs() < 1e-12, "{far:?}");
+        assert!((far.length - 0.09f64.powf(0.75) * 2.0f64.powf(1.5) / 0.008).abs() < 1e-10, "{far:?}");
     }
 
     #[test]

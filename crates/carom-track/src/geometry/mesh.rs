@@ -180,18 +180,35 @@ fn touch(t: &Triangle, path: &Path, clearance: f64, slack: f64) -> Option<Meetin
     best
 }
 
+/// Contact with the face, on the side the sphere is on or on the other, which it may reach around an edge.
 fn face(t: &Triangle, path: &Path, clearance: f64, slack: f64) -> Option<Meeting> {
     let n = unit(cross(sub(t[1], t[0]), sub(t[2], t[0])))?;
     let height = dot(n, sub(path.start, t[0]));
     // a point that touches is on the side it moves to
     let side = if height.abs() > slack { height } else { dot(n, path.points[0]) };
-    let n = if side < 0.0 { scale(n, -1.0) } else { n };
+    let near = if side < 0.0 { scale(n, -1.0) } else { n };
+    let first = face_from(t, near, path, clearance, slack, false);
+    let second = face_from(t, scale(near, -1.0), path, clearance, slack, true);
+    match (first, second) {
+        (Some(a), Some(b)) => Some(if b.theta < a.theta { b } else { a }),
+        (a, b) => a.or(b),
+    }
+}
+
+/// Contact on the side that `n` points to; `far` if the path starts on the other.
+fn face_from(t: &Triangle, n: Vec3, path: &Path, clearance: f64, slack: f64, far: bool) -> Option<Meeting> {
     let gap = dot(n, sub(path.start, t[0])) - clearance;
+    let turn = winding(t, n);
     let over = |theta: f64| {
         let x = path.at(theta);
-        (0..3).all(|i| dot(cross(sub(t[(i + 1) % 3], t[i]), sub(x, t[i])), n) * winding(t, n) >= 0.0)
+        (0..3).all(|i| dot(cross(sub(t[(i + 1) % 3], t[i]), sub(x, t[i])), n) * turn >= 0.0)
     };
-    let theta = bounded_contact(gap, &path.along(n), slack, over)?;
+    let along = path.along(n);
+    let theta = if far {
+        along.scaled(1.0, gap.min(-f64::MIN_POSITIVE)).first_descent(over)?
+    } else {
+        bounded_contact(gap, &along, slack, over)?
+    };
     let x = path.at(theta);
     let off = dot(n, sub(x, t[0])) - clearance;
     Some(Meeting { theta, position: sub(x, scale(n, off)), normal: n })
@@ -301,6 +318,16 @@ mod tests {
     fn a_sphere_level_with_the_plane_meets_the_edge_not_the_face() {
         let m = fly(FLAT, [0.4, 0.05, -1.0], [0.0, 0.0, 2.0]).unwrap();
         assert!((m.position[2] + (0.01f64 - 0.0025).sqrt()).abs() < 1e-13, "{m:?}");
+    }
+
+    #[test]
+    fn a_path_around_an_edge_meets_the_far_side() {
+        // from above, past the edge, under the triangle and up against its lower side
+        let points = [[0.0, -0.5, -3.3], [0.0, -4.0, -3.3], [0.0, -4.0, 1.7], [0.0, 0.0, 0.0]];
+        let path = Path { start: [0.2, 1.0, 0.3], points };
+        let m = Mesh::new(vec![FLAT]).unwrap().meet(&path, 0.1, 1e-12).unwrap();
+        assert_eq!(m.normal, [0.0, -1.0, 0.0], "{m:?}");
+        assert!((m.position[1] + 0.1).abs() < 1e-15);
     }
 
     #[test]

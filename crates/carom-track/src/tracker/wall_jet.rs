@@ -10,7 +10,7 @@
 //! The speed is kept. A thing that is pressed against such a wall at rest has nowhere to go and settles.
 
 use crate::vector::{Vec3, add, cross, dot, norm, scale, sub};
-use carom::math::{exp, ln};
+use carom::math::{exp, ln, sin_cos};
 use std::f64::consts::PI;
 
 /// The velocity after the wall, from the one before (both relative to it) and two uniform draws; `None` where it does not
@@ -25,7 +25,7 @@ pub(super) fn leave(v: Vec3, n: Vec3, draws: [f64; 2]) -> Option<Vec3> {
     let forward = if tangential > 0.0 { scale(along, 1.0 / tangential) } else { crate::vector::frame(n).0 };
     let psi = spread(tangential / speed, draws[0]);
     let psi = if draws[1] < 0.5 { psi } else { -psi };
-    let (sin, cos) = psi.sin_cos();
+    let (sin, cos) = sin_cos(psi);
     // a trace of outward speed keeps rounding from pressing it onto the wall
     let outward = scale(n, 1e-13 * speed);
     Some(add(outward, add(scale(forward, speed * cos), scale(cross(n, forward), speed * sin))))

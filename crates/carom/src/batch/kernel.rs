@@ -43,7 +43,7 @@ struct Of<'a, A, P> {
 impl<A: AdhesiveLoss, P: PlasticLoss> Normal for Of<'_, A, P> {
     #[inline(always)]
     fn respond(&self, v_n: f64, _: f64, size: &Size) -> NormalResponse {
-        NormalResponse::of_losses(ledger::losses(&self.adhesive, self.plastic, &self.damping, v_n, size))
+        NormalResponse::of_balance(&ledger::balance(&self.adhesive, self.plastic, &self.damping, v_n, size))
     }
 }
 impl Normal for NormalLaw {
@@ -86,6 +86,7 @@ fn run_ledger(machine: &Machine, law: &WallLaw, ledger: &Ledger, rows: &Incidenc
         Plastic::None => run_plastic(machine, law, ledger, &Elastic, rows, out),
         Plastic::Kadomtsev(p) => run_plastic(machine, law, ledger, p, rows, out),
         Plastic::ThorntonNing(p) => run_plastic(machine, law, ledger, p, rows, out),
+        Plastic::Bons(p) => run_plastic(machine, law, ledger, p, rows, out),
         Plastic::Tabor(_) => run_sized(machine, law, &law.normal, rows, out),
     }
 }

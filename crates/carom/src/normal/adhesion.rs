@@ -65,17 +65,28 @@ impl Work {
         Self { scale: (8.0 * PI / 3.0) * roughness_factor * math::exp(ln_f0 + ln_rest) }
     }
 
+    /// B, the materials' part.
+    #[inline(always)]
+    pub(crate) fn scale(&self) -> f64 {
+        self.scale
+    }
+
+    /// (v¹²R¹⁰κ⁻⁸)^{−1/15}, R in units of 10 µm.
+    #[inline(always)]
+    pub(crate) fn power(&self, v: f64, size: &Size) -> f64 {
+        let v = v.max(SPEEDS.0).min(SPEEDS.1);
+        let v2 = v * v;
+        let r = size.radius * (1.0 / RADIUS_UNIT);
+        let r2 = r * r;
+        // the square root of the product, for a shorter chain and a wider range
+        let product = (v2 * v2 * v2) * ((r2 * r2) * r * size_correction(size));
+        math::pow(product, -2.0 / 15.0)
+    }
+
     /// Ψ_A at approach speed `v` (m/s).
     #[inline(always)]
     pub fn fraction(&self, v: f64, size: &Size) -> f64 {
-        let v = v.max(SPEEDS.0).min(SPEEDS.1);
-        let v2 = v * v;
-        let v4 = v2 * v2;
-        let r = size.radius * (1.0 / RADIUS_UNIT);
-        let r2 = r * r;
-        let r4 = r2 * r2;
-        let product = (v4 * v4) * v4 * ((r4 * r4) * r2) * size_correction(size);
-        self.scale * math::pow(product, -1.0 / 15.0)
+        self.scale * self.power(v, size)
     }
 
     /// Capture velocity of this loss alone, m/s: Ψ_A(1)^{5/4} exactly.
@@ -85,7 +96,7 @@ impl Work {
     }
 }
 
-/// κ⁻⁸ (ρ/ρ₀)⁶, exactly 1 on a flat wall with the law's own density.
+/// κ⁻⁴ (ρ/ρ₀)³, exactly 1 on a flat wall with the law's own density.
 #[inline(always)]
 fn size_correction(size: &Size) -> f64 {
     if size.is_plain() {
@@ -93,9 +104,8 @@ fn size_correction(size: &Size) -> f64 {
     }
     let k = 1.0 / size.kappa;
     let k2 = k * k;
-    let k4 = k2 * k2;
-    let d3 = size.density_ratio * size.density_ratio * size.density_ratio;
-    (k4 * k4) * (d3 * d3)
+    let d = size.density_ratio;
+    (k2 * k2) * (d * d * d)
 }
 
 /// Constants of the JKR loss (V_s/v)².

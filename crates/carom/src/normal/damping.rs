@@ -38,12 +38,6 @@ impl Damping {
         HERTZ * self.hertz * v
     }
 
-    /// Fraction lost to adhesion damping, given Ψ_A at that speed.
-    #[inline(always)]
-    pub fn adhesion_fraction(&self, psi_a: f64, v: f64) -> f64 {
-        psi_a * self.adhesion * v
-    }
-
     /// No damping at all?
     pub fn is_none(&self) -> bool {
         self.adhesion == 0.0 && self.hertz == 0.0

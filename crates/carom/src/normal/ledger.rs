@@ -2,13 +2,14 @@
 //!
 //! e² = 1 − Σ ε_i(v), Kim & Dunn (2007), Eqs 24 and 37, J. Aerosol Sci. 38, 532–549,
 //! <https://doi.org/10.1016/j.jaerosci.2007.03.006>. e² ≤ 0 is capture. At most one of the two adhesion works and one of the
-//! three plastic losses may stand in a ledger: two of a kind would count the same energy twice.
+//! four plastic losses may stand in a ledger: two of a kind would count the same energy twice.
 //!
 //! The additive sum is an approximation where losses act on the same contact: adhesion work above yield keeps the elastic
 //! contact radius, and damping fitted on elastic contacts beside a plastic loss may count energy twice (`losses-overlap`).
 
 use super::Size;
 use super::adhesion::{Jkr, Work};
+use super::bons::Bons;
 use super::damping::Damping;
 use super::plastic::Kadomtsev;
 use super::tabor::Tabor;
@@ -29,19 +30,22 @@ pub enum Loss {
     PlasticThorntonNing,
     /// `plastic-tabor`
     PlasticTabor,
+    /// `plastic-bons`
+    PlasticBons,
     /// `adhesion-jkr`
     AdhesionJkr,
 }
 
 impl Loss {
     /// Every loss, in the order of the documentation.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::AdhesionWork,
         Self::AdhesionDamping,
         Self::HertzDamping,
         Self::PlasticKadomtsev,
         Self::PlasticThorntonNing,
         Self::PlasticTabor,
+        Self::PlasticBons,
         Self::AdhesionJkr,
     ];
 
@@ -54,6 +58,7 @@ impl Loss {
             Self::PlasticKadomtsev => "plastic-kadomtsev",
             Self::PlasticThorntonNing => "plastic-thornton-ning",
             Self::PlasticTabor => "plastic-tabor",
+            Self::PlasticBons => "plastic-bons",
             Self::AdhesionJkr => "adhesion-jkr",
         }
     }
@@ -62,7 +67,9 @@ impl Loss {
     pub fn kind(self) -> &'static str {
         match self {
             Self::AdhesionWork | Self::AdhesionJkr => "adhesion work",
-            Self::PlasticKadomtsev | Self::PlasticThorntonNing | Self::PlasticTabor => "plastic loss",
+            Self::PlasticKadomtsev | Self::PlasticThorntonNing | Self::PlasticTabor | Self::PlasticBons => {
+                "plastic loss"
+            }
             Self::AdhesionDamping => "adhesion damping",
             Self::HertzDamping => "Hertzian damping",
         }
@@ -91,6 +98,8 @@ pub enum Plastic {
     ThorntonNing(ThorntonNing),
     /// Tabor's.
     Tabor(Tabor),
+    /// Bons'.
+    Bons(Bons),
 }
 
 /// Compiled losses. `work` holds the constants of Ψ_A whether the adhesion work itself is in the ledger or only its damping.
@@ -158,44 +167,88 @@ impl PlasticLoss for ThorntonNing {
         self.fraction(v, size)
     }
 }
+impl PlasticLoss for Bons {
+    #[inline(always)]
+    fn lost(&self, v: f64, size: &Size) -> f64 {
+        self.fraction(v, size)
+    }
+}
 
-/// The adhesive losses as a type, likewise.
+/// What the losses took and what they left.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Balance {
+    pub losses: Losses,
+    /// e², not above zero for a capture: 1 − Σ ε_i with the fewest operations after the last-known number, Ψ_A.
+    pub left: f64,
+}
+
+impl Balance {
+    #[inline(always)]
+    pub fn restitution(&self) -> f64 {
+        if self.left > 0.0 { self.left.sqrt() } else { 0.0 }
+    }
+}
+
+/// The losses that grow with Ψ_A, as a type, likewise.
 pub(crate) trait AdhesiveLoss: Copy {
-    /// (adhesion, adhesion damping).
-    fn lost(&self, v: f64, size: &Size) -> (f64, f64);
+    fn share(&self, v: f64, size: &Size) -> Adhesive;
+}
+/// (adhesion, adhesion damping), and their sum as a product.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Adhesive {
+    adhesion: f64,
+    damping: f64,
+    power: f64,
+    weight: f64,
 }
 /// Ψ_A (counted or not) with its damping.
 #[derive(Clone, Copy)]
 pub(crate) struct WorkLoss {
-    pub work: Work,
-    pub counted: f64,
-    pub damping: Damping,
+    work: Work,
+    counted: f64,
+    damping: f64,
 }
 impl AdhesiveLoss for WorkLoss {
     #[inline(always)]
-    fn lost(&self, v: f64, size: &Size) -> (f64, f64) {
-        let psi = self.work.fraction(v, size);
-        (self.counted * psi, self.damping.adhesion_fraction(psi, v))
+    fn share(&self, v: f64, size: &Size) -> Adhesive {
+        let power = self.work.power(v, size);
+        let psi = self.work.scale() * power;
+        let damped = self.damping * v;
+        let weight = self.work.scale() * (self.counted + damped);
+        Adhesive { adhesion: self.counted * psi, damping: psi * damped, power, weight }
     }
 }
 #[derive(Clone, Copy)]
 pub(crate) struct NoAdhesion;
 impl AdhesiveLoss for NoAdhesion {
     #[inline(always)]
-    fn lost(&self, _: f64, _: &Size) -> (f64, f64) {
-        (0.0, 0.0)
+    fn share(&self, _: f64, _: &Size) -> Adhesive {
+        Adhesive::default()
     }
 }
+
 #[inline(always)]
-pub(crate) fn losses<A: AdhesiveLoss, P: PlasticLoss>(
+pub(crate) fn balance<A: AdhesiveLoss, P: PlasticLoss>(
     adhesive: &A,
     plastic: &P,
     damping: &Damping,
     v: f64,
     size: &Size,
-) -> Losses {
-    let (adhesion, adhesion_damping) = adhesive.lost(v, size);
-    Losses { adhesion, adhesion_damping, hertz_damping: damping.hertz_fraction(v), plastic: plastic.lost(v, size) }
+) -> Balance {
+    settle(&adhesive.share(v, size), plastic.lost(v, size), damping.hertz_fraction(v), 0.0)
+}
+
+#[inline(always)]
+fn settle(adhesive: &Adhesive, plastic: f64, hertz: f64, jkr: f64) -> Balance {
+    Balance {
+        losses: Losses {
+            adhesion: adhesive.adhesion + jkr,
+            adhesion_damping: adhesive.damping,
+            hertz_damping: hertz,
+            plastic,
+        },
+        left: (-adhesive.power).mul_add(adhesive.weight, 1.0 - (plastic + hertz) - jkr),
+    }
 }
 
 impl Ledger {
@@ -206,11 +259,8 @@ impl Ledger {
 
     #[inline(always)]
     pub(crate) fn work_loss(&self) -> WorkLoss {
-        WorkLoss {
-            work: self.work,
-            counted: f64::from(u8::from(self.adhesion == Adhesion::Work)),
-            damping: self.damping,
-        }
+        let counted = f64::from(u8::from(self.adhesion == Adhesion::Work));
+        WorkLoss { work: self.work, counted, damping: self.damping.adhesion }
     }
 
     /// Whether Ψ_A is needed at all.
@@ -219,21 +269,26 @@ impl Ledger {
         self.adhesion == Adhesion::Work || self.damping.adhesion != 0.0
     }
 
-    /// The fractions lost at normal approach speed `v` (m/s).
     #[inline(always)]
-    pub fn losses(&self, v: f64, size: &Size) -> Losses {
-        let (work, adhesion_damping) = if self.uses_work() { self.work_loss().lost(v, size) } else { (0.0, 0.0) };
-        let adhesion = match &self.adhesion {
+    pub(crate) fn balance(&self, v: f64, size: &Size) -> Balance {
+        let adhesive = if self.uses_work() { self.work_loss().share(v, size) } else { Adhesive::default() };
+        let jkr = match &self.adhesion {
             Adhesion::Jkr(jkr) => jkr.fraction(v, size),
-            _ => work,
+            _ => 0.0,
         };
         let plastic = match &self.plastic {
             Plastic::None => 0.0,
             Plastic::Kadomtsev(p) => p.fraction(v, size),
             Plastic::ThorntonNing(p) => p.fraction(v, size),
             Plastic::Tabor(p) => p.fraction(v),
+            Plastic::Bons(p) => p.fraction(v, size),
         };
-        Losses { adhesion, adhesion_damping, hertz_damping: self.damping.hertz_fraction(v), plastic }
+        settle(&adhesive, plastic, self.damping.hertz_fraction(v), jkr)
+    }
+
+    /// The fractions lost at normal approach speed `v` (m/s).
+    pub fn losses(&self, v: f64, size: &Size) -> Losses {
+        self.balance(v, size).losses
     }
 
     /// Restitution at normal approach speed `v` (m/s).
@@ -245,7 +300,7 @@ impl Ledger {
     /// ```
     #[inline(always)]
     pub fn restitution(&self, v: f64, size: &Size) -> f64 {
-        self.losses(v, size).restitution()
+        self.balance(v, size).restitution()
     }
 
     /// Yield velocity of the ledger's own plastic loss, m/s.
@@ -255,7 +310,13 @@ impl Ledger {
             Plastic::Kadomtsev(p) => Some(p.yield_squared(size).sqrt()),
             Plastic::ThorntonNing(p) => Some(p.yield_squared(size).sqrt()),
             Plastic::Tabor(p) => Some(p.yield_velocity),
+            Plastic::Bons(p) => Some(p.yield_squared(size).sqrt()),
         }
+    }
+
+    /// Can the plastic loss end the rebound at high speed, as damping can?
+    pub fn plastic_can_exhaust(&self) -> bool {
+        matches!(self.plastic, Plastic::Bons(_))
     }
 
     /// (V_y)², infinite without a plastic loss; cheap enough for every impact.
@@ -266,6 +327,7 @@ impl Ledger {
             Plastic::Kadomtsev(p) => p.yield_squared(size),
             Plastic::ThorntonNing(p) => p.yield_squared(size),
             Plastic::Tabor(p) => p.yield_velocity * p.yield_velocity,
+            Plastic::Bons(p) => p.yield_squared(size),
         }
     }
 }

@@ -106,7 +106,8 @@ impl Contact {
         let five = square(sum(&E5, &ks), scale_s) + square(sum(&E5, &ku), scale_u);
         let three = square(sum(&E3, &ks), scale_s) + square(sum(&E3, &ku), scale_u);
         let spread = 0.01f64.mul_add(three, five);
-        let error = if spread > 0.0 { h.abs() * five / (2.0 * spread).sqrt() } else { 0.0 };
+        // a spread that is not a number must not pass for none
+        let error = if spread == 0.0 { 0.0 } else { h.abs() * five / (2.0 * spread).sqrt() };
         let mut rides = from.rides;
         for i in 0..STAGES {
             let weight = h * B[i] * 2.0 * pace[i];
@@ -139,12 +140,15 @@ impl Contact {
             let leaves = separating && step.to.s <= 0.0;
             if turns || leaves {
                 let (along, length) = if turns { (Along::Speed, -state.u) } else { (Along::Depth, -state.s) };
-                step = self.step(&state, length, a, along);
-                if refused(step.error) && h > 1e-9 {
+                let landing = self.step(&state, length, a, along);
+                if !refused(landing.error) {
+                    step = landing;
+                } else if h > 1e-9 {
                     // come closer first: the last stretch must be smooth in the new variable
                     h *= 0.5;
                     continue;
                 }
+                // else the stretch is shorter than the rounding, and σ's own step ends it as well
             } else if separating && step.to.u >= 0.0 {
                 motion.end = step.to;
                 watch(&step.to, true);

@@ -175,3 +175,17 @@ fn a_plain_integration_in_time_agrees() {
     let e = steel_on_silicon(DAMPED, AdhesionMode::SeparationOnly).restitution(1.0, &Size::flat(r));
     assert!(x <= 0.0 && (e + v).abs() < 1e-6, "{e} {v}");
 }
+
+/// Adhesion a million times the impact's own scale: the first steps overflow and must be refused, not taken.
+#[test]
+fn adhesion_beyond_all_scale_gives_numbers() {
+    for mode in [AdhesionMode::SeparationOnly, AdhesionMode::Reversible] {
+        let law = steel_on_silicon(DAMPED, mode);
+        for i in 0..200 {
+            let v = 10f64.powf(f64::from(i) / 20.0 - 12.0);
+            let response = law.respond(v, &Size::flat(3.3e-7));
+            assert!((0.0..=1.0).contains(&response.e), "{mode:?} {v}: {response:?}");
+            assert!(response.lost().is_finite(), "{mode:?} {v}: {response:?}");
+        }
+    }
+}

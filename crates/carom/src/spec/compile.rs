@@ -6,6 +6,7 @@ use super::{At, LawSpec, NormalKind, NormalSpec};
 use crate::error::SpecError;
 use crate::material::{Library, Material, MaterialRef};
 use crate::normal::adhesion::{Jkr, Work};
+use crate::normal::bons::Bons;
 use crate::normal::damping::Damping;
 use crate::normal::empirical::Curve;
 use crate::normal::ledger::{Adhesion, Ledger, Plastic};
@@ -23,7 +24,6 @@ use crate::wall::{NormalLaw, WallLaw};
 struct Numbers {
     adhesion_damping: Option<f64>,
     hertz_damping: Option<f64>,
-    roughness: Option<f64>,
     roughness_factor: f64,
     spacing: f64,
     surface_curvature: f64,
@@ -40,37 +40,26 @@ impl LawSpec {
             .normal
             .as_ref()
             .ok_or_else(|| need("a normal law", &format!("normal = \"{}\"", NormalKind::NAMES.join("\" or \""))))?;
-        let numbers = self.numbers()?;
+        let mut numbers = self.numbers()?;
         let pair = self.pair(library, &numbers)?;
+        // a table has no adhesion that a roughness could lessen, and need not have a pair
+        let table = matches!(normal_spec.value, NormalSpec::Named(NormalKind::Constant | NormalKind::ByAngle));
+        let roughness = self.roughness(numbers.spacing, pair.as_ref().filter(|_| !table))?;
+        numbers.roughness_factor = roughness.factor;
         let place = normal_spec.span.clone();
         self.refuse_idle_keys(&normal_spec.value)?;
         let normal = self.normal_law(&normal_spec.value, pair.as_ref(), &numbers).map_err(|e| e.at(place))?;
         let tangential = self.tangential_law(pair.as_ref())?;
         let mut law = WallLaw::assemble(normal, tangential, pair, numbers.surface_curvature);
-        law.roughness = numbers.roughness;
-        law.roughness_factor = numbers.roughness_factor;
+        law.roughness = roughness.height;
+        law.roughness_factor = roughness.factor;
         law.spacing = numbers.spacing;
-        let extrapolated =
-            self.roughness_factor.is_none() && numbers.roughness.is_some_and(|s| s > roughness::CALIBRATED_ROUGHNESS);
-        law.validity = Validity::ROUGHNESS_EXTRAPOLATED.when(extrapolated && uses_roughness(&law.normal));
+        law.validity = Validity::ROUGHNESS_EXTRAPOLATED.when(roughness.extrapolated && uses_roughness(&law.normal));
         Ok(law)
     }
 
     fn numbers(&self) -> Result<Numbers, SpecError> {
         let damping = "zero or more is wanted, in s/m";
-        let roughness = checked(&self.roughness, "roughness", |l| l.0, not_negative, "zero or more is wanted, in m")?;
-        let given = checked(
-            &self.roughness_factor,
-            "roughness_factor",
-            |n| n.0,
-            |v| v > 0.0 && v <= 1.0,
-            "C_R lies above 0 and up to 1",
-        )?;
-        if let (Some(_), Some(at)) = (given, &self.roughness) {
-            return Err(SpecError::new("both roughness_factor and roughness")
-                .help("C_R is given or follows from the roughness: keep one")
-                .at(at.span.clone()));
-        }
         let spacing = checked(
             &self.equilibrium_spacing,
             "equilibrium_spacing",
@@ -89,8 +78,7 @@ impl LawSpec {
         Ok(Numbers {
             adhesion_damping: checked(&self.adhesion_damping, "adhesion_damping", |d| d.0, not_negative, damping)?,
             hertz_damping: checked(&self.hertz_damping, "hertz_damping", |d| d.0, not_negative, damping)?,
-            roughness,
-            roughness_factor: given.unwrap_or_else(|| roughness.map_or(1.0, |s| roughness::factor(s, spacing))),
+            roughness_factor: 1.0,
             spacing,
             surface_curvature: radius.map_or(0.0, |r| 1.0 / r),
             overrides: Overrides {
@@ -258,6 +246,10 @@ impl LawSpec {
                         Plastic::ThorntonNing(ThorntonNing::new(pair.effective_modulus()?, pressure, pair.density()?));
                 }
                 Loss::PlasticTabor => ledger.plastic = Plastic::Tabor(self.tabor()?),
+                Loss::PlasticBons => {
+                    let strength = 2.0 * pair.plastic_constant()?;
+                    ledger.plastic = Plastic::Bons(Bons::new(pair.effective_modulus()?, strength, pair.density()?));
+                }
             }
         }
         Ok(ledger)

@@ -109,6 +109,18 @@ fn contradictions_are_refused() {
             ":6:13",
             &["both roughness_factor and roughness"][..],
         ),
+        ("normal = \"ea\"\nroughness_model = \"fuller-tabor\"\n", ":5:19", &["without roughness"]),
+        (
+            "normal = \"ea\"\nroughness = \"1 nm\"\nroughness_model = \"fuler-tabor\"\n",
+            ":6:19",
+            &["did you mean fuller-tabor?"],
+        ),
+        (
+            "normal = \"ea\"\nroughness = \"1 nm\"\nroughness_model = \"fuller-tabor\"\n",
+            ":6:19",
+            &["asperity_radius = \"100 nm\""],
+        ),
+        ("normal = \"ea\"\nroughness = \"1 nm\"\nasperity_radius = \"1 um\"\n", ":6:19", &["fuller-tabor"]),
         ("normal = \"ea\"\nroughness_factor = 0\n", ":5:20", &["C_R lies above 0"]),
         ("normal = \"ea\"\nrestitution = 0.5\n", ":5:15", &["no effect"]),
         ("normal = \"ea\"\nadhesion = \"reversible\"\n", ":5:12", &["resolved"]),
@@ -175,4 +187,27 @@ fn roughness_above_its_calibration_is_flagged() {
     assert_eq!(flags("normal = \"ea\"\nroughness = \"1 nm\"\n"), ["roughness-extrapolated"]);
     assert!(flags("normal = \"ea\"\nroughness = \"0.5 nm\"\n").is_empty());
     assert!(flags("normal = \"ea\"\nroughness_factor = 0.15\n").is_empty());
+    let fuller = "roughness_model = \"fuller-tabor\"\nasperity_radius = \"100 nm\"\n";
+    assert!(flags(&format!("normal = \"ea\"\nroughness = \"1 nm\"\n{fuller}")).is_empty());
+}
+
+#[test]
+fn fuller_and_tabors_factor_is_that_of_the_pair() {
+    let library = Library::builtin();
+    let factor = |rest: &str| {
+        let text =
+            format!("{PAIR}normal = \"ea\"\nroughness_model = \"fuller-tabor\"\nasperity_radius = \"100 nm\"\n{rest}");
+        let law = parse_law(&text)
+            .and_then(|l| l.compile(&library))
+            .unwrap_or_else(|e| panic!("{}", e.located("law", &text)));
+        (law.roughness_factor(), law.pair().expect("a pair").clone())
+    };
+    assert_eq!(factor("roughness = 0\n").0, 1.0);
+    let (c_r, pair) = factor("roughness = \"0.8 nm\"\n");
+    let (w, e_star) = (pair.work_of_adhesion().expect("given"), pair.effective_modulus().expect("given"));
+    let theta = e_star * 0.8e-9f64.powf(1.5) / (100e-9f64.sqrt() * w);
+    assert!((c_r - crate::roughness::fuller_tabor::factor(theta)).abs() < 1e-12 && c_r > 0.01 && c_r < 0.99, "{c_r}");
+    assert!(factor("roughness = \"1.6 nm\"\n").0 < c_r);
+    assert_eq!(factor("roughness = \"1 um\"\n").0, 0.0);
+    assert_eq!(factor("roughness = \"1 nm\"\nwork_of_adhesion = 0\n").0, 1.0);
 }

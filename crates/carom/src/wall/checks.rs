@@ -1,6 +1,5 @@
 //! Refusals of impacts that are none, and the doubts about those that are.
 
-use super::vector::dot;
 use super::{NormalLaw, NormalResponse, WallLaw};
 use crate::impact::{ImpactError, Vec3};
 use crate::normal::Size;
@@ -15,14 +14,16 @@ const FASTEST: f64 = 1e9;
 /// Greatest contact radius over sphere radius that the contact models are trusted to.
 const LARGE: f64 = 1.0 / 3.0;
 
-/// The wall's normal at length one; a normal that already is, to the last bit or two, is left alone.
+/// Is a normal of this squared length one already, to the last bit or two?
 #[inline(always)]
-pub(super) fn unit(normal: &Vec3) -> Result<Vec3, ImpactError> {
-    let square = dot(normal, normal);
-    if (square - 1.0).abs() <= 4.0 * f64::EPSILON {
-        return Ok(*normal);
-    }
-    if !(square > 1e-200 && square < 1e200) {
+pub(super) fn is_unit(square: f64) -> bool {
+    (square - 1.0).abs() <= 4.0 * f64::EPSILON
+}
+
+/// The wall's normal at length one.
+#[cold]
+pub(super) fn unit(normal: &Vec3, square: f64) -> Result<Vec3, ImpactError> {
+    if !(1e-200..1e200).contains(&square) {
         return Err(ImpactError::NotFinite);
     }
     let length = square.sqrt();
@@ -100,7 +101,7 @@ impl WallLaw {
                         yield_squared,
                     )))
                     .with(Validity::LOSSES_OVERLAP.when(yielding && !ledger.damping.is_none()));
-                if response.e <= 0.0 && !ledger.damping.is_none() {
+                if response.e <= 0.0 && (!ledger.damping.is_none() || ledger.plastic_can_exhaust()) {
                     validity = validity.with(self.why_captured(v, size));
                 }
             }

@@ -13,7 +13,8 @@ use crate::validity::Validity;
 pub struct Window {
     /// Capture velocity: at and below it the sphere is captured. 0 if nothing captures.
     pub capture_velocity: f64,
-    /// Above this, damping alone takes everything and the model's domain ends; infinite without damping.
+    /// Above this, damping alone takes everything and the model's domain ends, or Bons' plastic loss leaves less than adhesion takes;
+    /// infinite otherwise.
     pub exhausted_velocity: f64,
 }
 
@@ -48,8 +49,9 @@ fn peak(low: f64, high: f64, f: impl Fn(f64) -> f64) -> f64 {
 impl Ledger {
     /// The window of rebound for a size; `None` if there is no speed of rebound at all.
     ///
-    /// Without damping e² rises through zero once (v^{4/5} e_pl² is monotone for every plastic loss here), so the only root is the
-    /// capture velocity; adhesion work alone has it in closed form. With damping e² has one maximum, hence two roots or none.
+    /// Without damping e² rises through zero once (v^{4/5} e_pl² is monotone for every plastic loss but Bons'), so the only root is the
+    /// capture velocity; adhesion work alone has it in closed form. With damping e² has one maximum, hence two roots or none. With Bons'
+    /// loss v^{4/5} e² falls above yield, damped or not: its maximum lies at yield or below, and adhesion work brings a second root.
     ///
     /// ```
     /// use carom::normal::{Ledger, Size, adhesion::Work, damping::Damping, ledger::Adhesion};
@@ -63,7 +65,7 @@ impl Ledger {
     /// assert!((window.capture_velocity - 0.0269).abs() < 1e-4 && (window.exhausted_velocity - 128.3).abs() < 0.1);
     /// ```
     pub fn window(&self, size: &Size) -> Option<Window> {
-        let left = |v: f64| 1.0 - self.losses(v, size).total();
+        let left = |v: f64| self.balance(v, size).left;
         let adhesive = match &self.adhesion {
             Adhesion::None => 0.0,
             Adhesion::Work => self.work.capture_velocity(size),
@@ -72,6 +74,15 @@ impl Ledger {
         if self.damping.is_none() {
             if adhesive == 0.0 || matches!(self.plastic, Plastic::None) {
                 return Some(Window { capture_velocity: adhesive, exhausted_velocity: f64::INFINITY });
+            }
+            if let Plastic::Bons(bons) = &self.plastic {
+                let v_y = bons.yield_squared(size).sqrt();
+                let exhausted_velocity = match &self.adhesion {
+                    // V_y²/v² = (v_c/v)^{4/5}
+                    Adhesion::Work => v_y * (v_y / adhesive).powf(2.0 / 3.0),
+                    _ => f64::INFINITY,
+                };
+                return (adhesive < v_y).then_some(Window { capture_velocity: adhesive, exhausted_velocity });
             }
             // e ≤ adhesion's own, so the root is not below adhesion's alone
             let (mut low, mut high) = (adhesive * (1.0 - 1e-9), adhesive * 2.0);
@@ -86,10 +97,14 @@ impl Ledger {
         let start = if adhesive > 0.0 { adhesive } else { SLOWEST };
         let hertz = damping::HERTZ * self.damping.hertz;
         let end = if hertz > 0.0 { (1.0 / hertz).min(FASTEST) } else { FASTEST };
-        if start >= end {
+        let summit = match &self.plastic {
+            Plastic::Bons(bons) => end.min(bons.yield_squared(size).sqrt()),
+            _ => end,
+        };
+        if start >= summit {
             return None;
         }
-        let best = peak(start, end, left);
+        let best = peak(start, summit, left);
         if left(best) <= 0.0 {
             return None;
         }
@@ -127,6 +142,13 @@ impl WallLaw {
         })
     }
 
+    /// The capture velocity that user-defined functions of flow solvers compute for this pair, m/s, for comparison: it knows nothing of
+    /// the pair's adhesion, see [`crate::normal::el_batsh`]. `None` without a stiffness and a density.
+    pub fn el_batsh_capture_velocity(&self, diameter: f64) -> Option<f64> {
+        let pair = self.pair.as_ref()?;
+        Some(crate::normal::el_batsh::capture_velocity(diameter, pair.stiffness().ok()?, pair.density().ok()?))
+    }
+
     /// Critical angle from the surface (rad) at a given speed (m/s), for a sphere without spin: below it the sphere slides to the end.
     /// The restitution is the law's own at that angle's normal speed. `None` for tangential laws without friction.
     ///
@@ -134,11 +156,7 @@ impl WallLaw {
     /// A diameter or density out of range.
     pub fn critical_angle(&self, diameter: f64, density: Option<f64>, speed: f64) -> Result<Option<f64>, ImpactError> {
         let size = self.size(diameter, density)?;
-        let friction = match &self.tangential {
-            Tangential::Friction { friction, .. } => *friction,
-            Tangential::MicroSlip(law) => law.friction(),
-            Tangential::Restitution(_) => return Ok(None),
-        };
+        let Some(friction) = self.tangential.friction() else { return Ok(None) };
         if friction <= 0.0 {
             return Ok(Some(std::f64::consts::FRAC_PI_2));
         }
@@ -172,12 +190,15 @@ impl WallLaw {
         self.roughness_factor
     }
 
-    /// A damped ledger left nothing: below the window (capture, no doubt), above it, or without one.
+    /// A ledger left nothing: below the window (capture, no doubt), above it, or without one.
     pub(super) fn why_captured(&self, v: f64, size: &Size) -> Validity {
         let NormalLaw::Ledger(ledger) = &self.normal else { return Validity::NONE };
+        let bons = ledger.plastic_can_exhaust();
         match ledger.window(size) {
             None => Validity::NO_REBOUND_WINDOW,
-            Some(window) => Validity::DAMPING_EXHAUSTED.when(v > window.capture_velocity),
+            Some(window) if v <= window.capture_velocity => Validity::NONE,
+            Some(_) if bons && v * v > ledger.yield_squared(size) => Validity::PLASTIC_EXHAUSTED,
+            Some(_) => Validity::DAMPING_EXHAUSTED,
         }
     }
 }

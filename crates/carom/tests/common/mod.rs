@@ -38,9 +38,13 @@ pub fn normal_laws() -> Vec<String> {
         alumina("normal = [\"adhesion-work\", \"plastic-thornton-ning\", \"hertz-damping\"]\nhertz_damping = 0.002"),
         alumina("normal = \"tabor\"\nyield_velocity = 0.09\nmeyer_index = 2.29"),
         alumina("normal = [\"plastic-tabor\", \"adhesion-jkr\"]\nyield_velocity = 0.09\nmeyer_index = 2.29"),
+        alumina("normal = [\"plastic-bons\", \"adhesion-work\"]"),
+        alumina("normal = [\"plastic-bons\", \"hertz-damping\"]\nhertz_damping = 0.002"),
+        alumina("normal = [\"plastic-bons\", \"adhesion-jkr\"]\nplastic_constant = \"3 MPa\""),
         table("normal = \"constant\"\nrestitution = 0.7"),
         table("normal = \"by-angle\"\nrestitution = \"grant-tabakoff\""),
         table("normal = \"by-angle\"\nrestitution = { angle_deg = [10, 45, 90], value = [0.9, 0.7, 0.6] }"),
+        "sphere = \"stainless-steel\"\nsurface = \"silicon\"\nnormal = \"ea\"\nroughness = \"1 nm\"\nroughness_model = \"fuller-tabor\"\nasperity_radius = \"50 nm\"\n".into(),
         steel("normal = \"resolved\""),
         steel("normal = \"resolved\"\nadhesion = \"reversible\"\nadhesion_damping = 1.3\nhertz_damping = 0.007"),
     ]

@@ -1,0 +1,38 @@
+//! What can be wrong with an experiment's files or the report's folder.
+
+use carom::SpecError;
+use carom_report::ReportError;
+use std::path::PathBuf;
+
+/// Why a validation stops.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum LabError {
+    /// An experiment's text is wrong; the text comes along so that the place can be shown.
+    #[error("{}", .error.located(.name, .text))]
+    Experiment {
+        /// Name of the file.
+        name: String,
+        /// Its text.
+        text: String,
+        /// What is wrong, where.
+        error: SpecError,
+    },
+    /// A file of points is wrong: the message names file, line and value.
+    #[error("{0}")]
+    Points(String),
+    /// A file or folder cannot be read or written.
+    #[error("{}: {source}", .path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// What the operating system said.
+        source: std::io::Error,
+    },
+    /// The report could not be drawn or written.
+    #[error(transparent)]
+    Report(#[from] ReportError),
+    /// A model refused an impact that the lab asked for.
+    #[error("{0}")]
+    Model(String),
+}

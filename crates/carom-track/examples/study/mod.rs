@@ -1,0 +1,152 @@
+//! What the studies share: a case file with some keys changed, its spheres tracked one by one, a place for figures.
+
+#![allow(dead_code, reason = "each study uses a part of it")]
+
+use carom::material::Library;
+use carom_track::Case;
+use carom_track::record::{End, Event, ImpactRecord, Sink};
+use carom_track::tracker::Particle;
+use std::path::{Path, PathBuf};
+
+/// Whatever may go wrong.
+pub type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
+
+/// A case file of `examples/`, with keys changed.
+#[derive(Clone)]
+pub struct CaseFile {
+    table: toml::Table,
+    name: PathBuf,
+}
+
+impl CaseFile {
+    /// Reads `examples/NAME`.
+    pub fn read(name: &str) -> Result<Self> {
+        let name = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples").join(name);
+        let text = std::fs::read_to_string(&name).map_err(|e| format!("{}: {e}", name.display()))?;
+        Ok(Self { table: text.parse()?, name })
+    }
+
+    /// Changes what stands at a dotted key; numbers count through arrays: `wall.0.contact_at`.
+    pub fn set(mut self, key: &str, value: impl Into<toml::Value>) -> Self {
+        let mut keys: Vec<&str> = key.split('.').collect();
+        let last = keys.pop().unwrap_or_default();
+        let mut table = &mut self.table;
+        for step in keys {
+            let next = table.entry(step).or_insert_with(|| toml::Table::new().into());
+            table = match next {
+                toml::Value::Table(inner) => inner,
+                _ => panic!("{key}: {step} is no table"),
+            };
+        }
+        table.insert(last.to_owned(), value.into());
+        self
+    }
+
+    /// Changes a key of every entry of a list of tables: `wall`, `injection`.
+    pub fn set_each(mut self, list: &str, key: &str, value: impl Into<toml::Value>) -> Self {
+        let value = value.into();
+        for entry in self.list(list) {
+            entry.insert(key.to_owned(), value.clone());
+        }
+        self
+    }
+
+    /// The entries of a list of tables.
+    pub fn list(&mut self, list: &str) -> Vec<&mut toml::Table> {
+        let entries = self.table.get_mut(list).and_then(toml::Value::as_array_mut);
+        entries.into_iter().flatten().filter_map(toml::Value::as_table_mut).collect()
+    }
+
+    /// The checked case.
+    pub fn case(&self) -> Result<Case> {
+        let text = toml::to_string(&self.table)?;
+        let case = Case::from_toml(&text, &self.name, &Library::builtin());
+        Ok(case.map_err(|e| e.located(&self.name.to_string_lossy(), &text))?)
+    }
+}
+
+/// One sphere's history.
+pub struct Track {
+    /// Its impacts, the last one included.
+    pub impacts: Vec<ImpactRecord>,
+    /// Points of its path: t, x, y, z.
+    pub path: Vec<[f64; 4]>,
+    /// How it ended.
+    pub end: End,
+}
+
+impl Track {
+    /// Rebounds before it ended.
+    pub fn bounces(&self) -> usize {
+        self.impacts.iter().filter(|i| i.event == Event::Rebound).count()
+    }
+}
+
+/// Whether the points of the paths are wanted.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Paths {
+    Kept,
+    Dropped,
+}
+
+/// Tracks every sphere of a case, in the order of their numbers.
+pub fn track(case: &Case, paths: Paths) -> Vec<Track> {
+    let mut all = Collector { paths, open: (0..case.count()).map(|_| Open::default()).collect() };
+    case.tracker().run(&mut (0..case.count()).filter_map(|n| case.particle(n)), &mut all);
+    all.open.into_iter().filter_map(|o| Some(Track { impacts: o.impacts, path: o.path, end: o.end? })).collect()
+}
+
+#[derive(Default)]
+struct Open {
+    impacts: Vec<ImpactRecord>,
+    path: Vec<[f64; 4]>,
+    end: Option<End>,
+}
+
+struct Collector {
+    paths: Paths,
+    open: Vec<Open>,
+}
+
+impl Sink for Collector {
+    fn start(&mut self, _: &Particle) -> bool {
+        self.paths == Paths::Kept
+    }
+    fn impact(&mut self, impact: &ImpactRecord) {
+        self.open[impact.particle as usize].impacts.push(*impact);
+    }
+    fn point(&mut self, particle: u64, t: f64, x: [f64; 3], _: [f64; 3], _: [f64; 3]) {
+        self.open[particle as usize].path.push([t, x[0], x[1], x[2]]);
+    }
+    fn end(&mut self, end: &End) {
+        self.open[end.particle.number as usize].end = Some(*end);
+    }
+}
+
+/// The folder for figures: the first argument.
+pub fn out_dir() -> Result<PathBuf> {
+    let dir = std::env::args_os().nth(1).map(PathBuf::from).ok_or("give a folder for the figures")?;
+    std::fs::create_dir_all(&dir)?;
+    Ok(dir)
+}
+
+/// A figure's file: SVG, or PNG where the second argument is `png`.
+pub fn figure(dir: &Path, name: &str) -> PathBuf {
+    let png = std::env::args().nth(2).is_some_and(|a| a == "png");
+    dir.join(name).with_extension(if png { "png" } else { "svg" })
+}
+
+/// `n` values at equal ratios from `from` to `to`.
+pub fn logspace(from: f64, to: f64, n: usize) -> Vec<f64> {
+    (0..n).map(|i| from * (to / from).powf(i as f64 / (n - 1) as f64)).collect()
+}
+
+/// `n` values at equal steps from `from` to `to`.
+pub fn linspace(from: f64, to: f64, n: usize) -> Vec<f64> {
+    (0..n).map(|i| from + (to - from) * i as f64 / (n - 1) as f64).collect()
+}
+
+/// A length as a case file writes it.
+pub fn meters(x: f64) -> String {
+    format!("{x:e} m")
+}

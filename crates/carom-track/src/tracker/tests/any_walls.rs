@@ -1,0 +1,90 @@
+use super::*;
+use crate::geometry::{Mesh, Room};
+use crate::vector::unit;
+use proptest::prelude::*;
+
+/// Keeps every point of every path.
+#[derive(Default)]
+struct Paths {
+    log: Log,
+    points: Vec<Vec3>,
+}
+
+impl Sink for Paths {
+    fn start(&mut self, _: &Particle) -> bool {
+        true
+    }
+    fn impact(&mut self, impact: &ImpactRecord) {
+        self.log.impact(impact);
+    }
+    fn point(&mut self, _: u64, _: f64, x: Vec3, _: Vec3, _: Vec3) {
+        self.points.push(x);
+    }
+    fn end(&mut self, end: &End) {
+        self.log.end(end);
+    }
+    fn stalled(&mut self) {
+        self.log.stalled();
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(48))]
+
+    /// Whatever the walls, forces and laws: nothing gets through a wall, hovers, or is lost.
+    #[test]
+    fn nothing_sinks_hovers_or_is_lost(
+        normals in prop::collection::vec(prop::array::uniform3(-1.0f64..1.0), 0..4),
+        wind in prop::array::uniform3(-5.0f64..5.0),
+        gravity in prop::array::uniform3(-20.0f64..20.0),
+        v in prop::array::uniform3(-5.0f64..5.0),
+        restitution in 1e-3f64..1.0,
+        diameter in 5e-6f64..2e-3,
+        vacuum in any::<bool>(),
+        block in any::<bool>(),
+    ) {
+        let wall = |name: &str, shape| Wall { name: name.into(), shape, contact_at: ContactAt::Surface, velocity: [0.0; 3] };
+        let mut walls = vec![wall("room", Shape::Room(Room { min: [-0.02; 3], max: [0.02; 3] }))];
+        for n in normals.iter().filter_map(|n| unit(*n)) {
+            walls.push(wall("plane", Shape::Plane(Plane { point: n.map(|c| -0.01 * c), normal: n })));
+        }
+        if block {
+            let away = Mesh::block([0.004, -0.015, -0.015], [0.009, 0.015, 0.015]).unwrap();
+            walls.push(wall("block", Shape::Mesh(away)));
+        }
+        let behaviors: Vec<_> = walls.iter().map(|_| bounce(restitution)).collect();
+        let domain = Analytic::new(Flow::Uniform { velocity: wind }, walls);
+        let mut d = dynamics(if vacuum { Drag::None } else { Drag::SchillerNaumann });
+        d.forces.gravity = gravity;
+        let mut paths = Paths::default();
+        let settings = Settings { until: 0.5, ..settings() };
+        let tracker = Tracker { domain: &domain, dynamics: &d, behaviors: &behaviors, settings };
+        let p = Particle { diameter, density: 2500.0, ..sphere(0, [0.0; 3], v) };
+        tracker.run(&mut std::iter::once(p), &mut paths);
+        let r = 0.5 * diameter;
+        prop_assert_eq!(paths.log.ends.len(), 1);
+        prop_assert_eq!(paths.log.stalled, 0);
+        for x in &paths.points {
+            for w in domain.walls() {
+                let gap = w.shape.distance(*x) - r;
+                prop_assert!(gap > -1e-9 * r - 1e-14, "{} into {} at {:?}", -gap, w.name, x);
+            }
+        }
+        for i in &paths.log.impacts {
+            let gap = domain.walls()[i.wall].shape.distance(i.position) - r;
+            prop_assert!(gap.abs() < 1e-9 * r + 1e-14, "impact {gap} m off {}", domain.walls()[i.wall].name);
+        }
+        let end = paths.log.ends[0];
+        if end.fate == Fate::Settled {
+            let gap = domain.walls()[end.wall.unwrap()].shape.distance(end.position) - r;
+            prop_assert!(gap.abs() < 1e-9 * r + 1e-14, "settled {gap} m off");
+        } else {
+            prop_assert_eq!(end.fate, Fate::Airborne);
+            prop_assert_eq!(end.time, 0.5);
+        }
+        if vacuum {
+            let energy = |x: Vec3, v: Vec3| 0.5 * crate::vector::dot(v, v) - crate::vector::dot(gravity, x);
+            prop_assert!(energy(end.position, end.velocity) <= energy([0.0; 3], v) + 1e-9);
+        }
+    }
+}
