@@ -181,7 +181,8 @@ impl<D: Domain> Tracker<'_, D> {
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx512bw,avx2,fma,bmi1,bmi2")]
     fn run_avx512(&self, particles: &mut dyn Iterator<Item = Particle>, sink: &mut dyn Sink) {
-        self.run_lanes::<8>(particles, sink);
+        // two vectors of eight: one fills the waits of the other's chain of dependent operations
+        self.run_lanes::<16>(particles, sink);
     }
 
     #[cfg(target_arch = "x86_64")]
