@@ -132,8 +132,6 @@ pub fn parse_law(text: &str) -> Result<LawSpec, SpecError> {
 struct File {
     #[serde(default)]
     law: BTreeMap<String, LawSpec>,
-    #[serde(flatten)]
-    _others: BTreeMap<String, toml::Value>,
 }
 
 /// Reads the law `name` from a text with `[law.NAME]` tables (a law file or a whole case file; other tables are left alone).

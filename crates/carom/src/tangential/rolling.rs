@@ -20,11 +20,6 @@
 //! assert!((alpha - 57.5).abs() < 0.05);
 //! ```
 
-/// Impulse ratio that just ends the slip `slip` (m/s), given (1 + e)v_n (m/s).
-pub fn rolling_ratio(slip: f64, normal_impulse: f64) -> f64 {
-    (2.0 / 7.0) * slip / normal_impulse
-}
-
 /// Angle from the surface (rad) below which a sphere without spin slides to the end, at a given restitution.
 pub fn critical_angle(friction: f64, restitution: f64) -> f64 {
     2.0f64.atan2(7.0 * friction * (1.0 + restitution))

@@ -5,7 +5,7 @@ use crate::impact::ImpactError;
 use crate::normal::ledger::{Adhesion, Ledger, Plastic};
 use crate::normal::{Size, damping};
 use crate::roughness::{AdhesionNumbers, adhesion_numbers};
-use crate::tangential::Tangential;
+use crate::tangential::{Tangential, walton};
 use crate::validity::Validity;
 
 /// Speeds at which a sphere rebounds, m/s.
@@ -166,7 +166,7 @@ impl WallLaw {
             let response = self.normal.respond(speed * s, (speed * c) * (speed * c), &size);
             let cap = friction * response.friction_share * (1.0 + response.e) * s;
             match &self.tangential {
-                Tangential::Friction { beta, .. } => cap - (2.0 / 7.0) * (1.0 + beta) * c,
+                Tangential::Friction { beta, .. } => cap - walton::stick_impulse(*beta, c),
                 Tangential::MicroSlip(law) => law.sliding_slip(cap, response.e) - c,
                 Tangential::Restitution(_) => 0.0,
             }
@@ -191,8 +191,14 @@ impl WallLaw {
     }
 
     /// A ledger left nothing: below the window (capture, no doubt), above it, or without one.
+    #[cold]
     pub(super) fn why_captured(&self, v: f64, size: &Size) -> Validity {
         let NormalLaw::Ledger(ledger) = &self.normal else { return Validity::NONE };
+        // rebounds at a higher speed, so below the window: the common case, told without searching for the window's ends
+        let faster = |doublings: i32| v * f64::from(1 << doublings);
+        if (1..=12).any(|n| ledger.balance(faster(n), size).left > 0.0) {
+            return Validity::NONE;
+        }
         let bons = ledger.plastic_can_exhaust();
         match ledger.window(size) {
             None => Validity::NO_REBOUND_WINDOW,
