@@ -152,12 +152,16 @@ void Foam::CaromInteraction<CloudType>::impact
         in.draws[i] = this->owner().rndGen().template sample01<scalar>();
     }
 
+    const carom_impact_out out(action.law.impact(in));
+    if (out.fate == CAROM_FATE_UNMET)
+    {
+        return;
+    }
+
     if (fields_)
     {
         recordImpact(p, pp, nw, relative);
     }
-
-    const carom_impact_out out(action.law.impact(in));
 
     if (out.fate == CAROM_FATE_CAPTURE)
     {

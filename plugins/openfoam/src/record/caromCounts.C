@@ -91,7 +91,8 @@ void Foam::caromCounts::report(Ostream& os) const
         os  << "    Parcel fate: patch " << patches_[row] << " (number, mass)" << nl;
         for (int kind = 0; kind < kinds; ++kind)
         {
-            os  << "      - " << std::left << std::setw(28) << names[kind] << "= "
+            const word name(names[kind]);
+            os  << "      - " << name.c_str() << string(28 - name.size(), ' ').c_str() << "= "
                 << number_[kind][row] << ", " << mass_[kind][row] << nl;
         }
     }
