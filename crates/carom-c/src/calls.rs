@@ -161,7 +161,7 @@ fn known_size(name: &str, size: usize, least: usize, most: usize) -> Result<(), 
         format!(
             "more than the {most} that this library, {version}, knows: the program was compiled with the header of a later one"
         )
-    } else if size % size_of::<f64>() != 0 {
+    } else if !size.is_multiple_of(size_of::<f64>()) {
         "no whole number of fields".to_owned()
     } else {
         return Ok(());
@@ -195,9 +195,43 @@ unsafe fn one(
     out: *mut ImpactOut,
     out_size: usize,
 ) -> Result<(), ImpactError> {
+    #[cfg(target_arch = "x86_64")]
+    if std::arch::is_x86_feature_detected!("fma") {
+        // SAFETY: the processor has the feature the function is compiled for, as was just asked; the rest as the caller promises.
+        return unsafe { one_fma(law, impact, in_size, out, out_size) };
+    }
+    // SAFETY: as the caller promises.
+    unsafe { one_inlined(law, impact, in_size, out, out_size) }
+}
+
+/// # Safety
+/// As [`one`].
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "fma")]
+unsafe fn one_fma(
+    law: &Law,
+    impact: *const ImpactIn,
+    in_size: usize,
+    out: *mut ImpactOut,
+    out_size: usize,
+) -> Result<(), ImpactError> {
+    // SAFETY: as the caller promises.
+    unsafe { one_inlined(law, impact, in_size, out, out_size) }
+}
+
+/// # Safety
+/// As [`one`].
+#[inline(always)]
+unsafe fn one_inlined(
+    law: &Law,
+    impact: *const ImpactIn,
+    in_size: usize,
+    out: *mut ImpactOut,
+    out_size: usize,
+) -> Result<(), ImpactError> {
     // SAFETY: as the caller promises.
     let impact = unsafe { whole(impact, in_size) }.impact();
-    let answer = law.0.impact(&impact);
+    let answer = law.0.impact_inlined(&impact);
     let full = match &answer {
         Ok(outcome) => ImpactOut::of(outcome, out_size),
         Err(_) => ImpactOut::unmet(&impact, out_size),
