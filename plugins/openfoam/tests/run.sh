@@ -60,7 +60,7 @@ logged=$(awk '{ n += $2; m += $5 } END { print n, m }' "$work/agreed")
 stored=$(awk '/nRebound|nCapture/ { for (i = 4; i < NF; i++) n[$1] += $i } END { print n["nRebound"], n["nCapture"] }' 0.2/$properties)
 [[ $logged == "$stored" ]] || fail "the log has $logged rebounds and captures, the counts say $stored"
 
-spun=$(awk -F, 'NR > 1 && ($8 != 0 || $9 != 0 || $10 != 0) { n++ } END { print n + 0 }' $impacts/0/impacts.csv)
+spun=$(awk -F, 'NR > 1 && ($11 != 0 || $12 != 0 || $13 != 0) { n++ } END { print n + 0 }' $impacts/0/impacts.csv)
 (( spun > 100 )) || fail "only $spun impacts with spin: it was not kept"
 
 # --- two ranks capture what one does --------------------------------------------------------------------------------

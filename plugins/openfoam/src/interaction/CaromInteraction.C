@@ -178,7 +178,7 @@ void Foam::CaromInteraction<CloudType>::impact
     {
         const scalar t =
             this->owner().time().value() - (1 - p.stepFraction())*this->owner().time().deltaTValue();
-        log_->write(t, pp.name(), in, out, p.U());
+        log_->write(t, pp.name(), p.position(), in, out, p.U());
     }
 }
 

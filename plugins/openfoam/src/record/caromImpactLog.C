@@ -38,7 +38,7 @@ Foam::caromImpactLog::caromImpactLog(const Time& time, const word& cloudName)
 
     file_.precision(std::numeric_limits<double>::max_digits10);
     file_
-        << "time,patch,diameter,density,vx,vy,vz,wx,wy,wz,nx,ny,nz,ux,uy,uz,draw0,draw1,draw2,draw3,"
+        << "time,patch,x,y,z,diameter,density,vx,vy,vz,wx,wy,wz,nx,ny,nz,ux,uy,uz,draw0,draw1,draw2,draw3,"
         << "fate,vx_out,vy_out,vz_out,wx_out,wy_out,wz_out,restitution,impulse_ratio\n";
 }
 
@@ -47,14 +47,18 @@ void Foam::caromImpactLog::write
 (
     const scalar time,
     const word& patch,
+    const vector& position,
     const carom_impact_in& in,
     const carom_impact_out& out,
     const vector& velocity
 )
 {
+    const double at[3] = {position.x(), position.y(), position.z()};
     const double after[3] = {velocity.x(), velocity.y(), velocity.z()};
 
-    file_ << time << ',' << patch << ',' << in.diameter << ',' << in.density;
+    file_ << time << ',' << patch;
+    write3(file_, at);
+    file_ << ',' << in.diameter << ',' << in.density;
     write3(file_, in.velocity);
     write3(file_, in.spin);
     write3(file_, in.normal);
