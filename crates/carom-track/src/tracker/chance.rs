@@ -38,19 +38,21 @@ impl<D: Domain> Tracker<'_, D> {
         self.dynamics.random_walk.is_some() || self.dynamics.brownian
     }
 
-    /// Draws what is due at a lane's time.
+    /// Draws what is due at a lane's time, and says when to stop next.
     pub(super) fn renew<const W: usize>(&self, crew: &mut Crew<W>, l: usize) {
-        let time = crew.lanes[l].time;
+        let time = crew.time[l];
         if crew.lanes[l].chance.eddy_end <= time {
             self.renew_eddy(crew, l);
         }
         if crew.lanes[l].chance.kick_end <= time {
             self.renew_kick(crew, l);
         }
+        let next = crew.lanes[l].chance.next();
+        crew.stop[l] = if next > time { self.settings.until.min(next) } else { self.settings.until };
     }
 
     fn renew_eddy<const W: usize>(&self, crew: &mut Crew<W>, l: usize) {
-        let (time, number) = (crew.lanes[l].time, crew.lanes[l].particle.number);
+        let (time, number) = (crew.time[l], crew.lanes[l].particle.number);
         let chance = &mut crew.lanes[l].chance;
         let Some(walk) = &self.dynamics.random_walk else {
             chance.eddy_end = f64::INFINITY;
@@ -61,7 +63,7 @@ impl<D: Domain> Tracker<'_, D> {
         if !(local.k > 0.0 && local.epsilon > 0.0) {
             // nothing to draw here, but perhaps further on: ask again in a while
             crew.bodies.eddy[l] = None;
-            chance.eddy_end = time + crew.lanes[l].step;
+            chance.eddy_end = time + crew.next[l];
             return;
         }
         let mut draws = Stream::new(self.settings.seed, number, Purpose::Eddy, chance.eddies);
@@ -76,7 +78,7 @@ impl<D: Domain> Tracker<'_, D> {
     }
 
     fn renew_kick<const W: usize>(&self, crew: &mut Crew<W>, l: usize) {
-        let (time, number) = (crew.lanes[l].time, crew.lanes[l].particle.number);
+        let (time, number) = (crew.time[l], crew.lanes[l].particle.number);
         let chance = &mut crew.lanes[l].chance;
         if !self.dynamics.brownian {
             chance.kick_end = f64::INFINITY;
