@@ -191,6 +191,19 @@ impl WallLaw {
     /// As [`WallLaw::impact`].
     #[inline(always)]
     pub fn impact_inlined(&self, impact: &Impact) -> Result<Outcome, ImpactError> {
+        // whoever calls this skips `impact`: what is added to a law must be heeded here too
+        let Self {
+            normal: _,
+            tangential: _,
+            density: _,
+            surface_curvature: _,
+            contact_limit: _,
+            validity: _,
+            pair: _,
+            roughness: _,
+            roughness_factor: _,
+            spacing: _,
+        } = self;
         let square = dot(&impact.normal, &impact.normal);
         let normal = if checks::is_unit(square) { impact.normal } else { checks::unit(&impact.normal, square)? };
         let size = self.size(impact.diameter, impact.density)?;
