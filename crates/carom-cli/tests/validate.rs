@@ -71,7 +71,7 @@ fn mistakes_name_file_and_line_and_write_nothing() {
     fails(&run, "lab/dahneke-1975.toml:");
     std::fs::write(&toml, text).expect("a file");
     std::fs::write(folder.path().join("lab/dahneke-1975.csv"), "speed,restitution\n2,0.5\n0,0.5\n").expect("a file");
-    fails(&run, "dahneke-1975.csv:3: ");
+    fails(&run, "dahneke-1975.csv:3:1: ");
     std::fs::write(folder.path().join("taken"), "").expect("a file");
     fails(&["validate", "--out", "taken"], "--out taken: a file is there");
 }
