@@ -3,7 +3,7 @@
 use carom::error::did_you_mean;
 use carom::material::Library;
 use carom::spec::LawSpec;
-use carom::units::{InverseSpeed, Number, Pressure, SurfaceEnergy};
+use carom::units::{InverseSpeed, Number, Pressure, SurfaceEnergy, UnitError};
 use carom::{SpecError, WallLaw};
 use serde::Serialize;
 use std::ops::RangeInclusive;
@@ -99,6 +99,19 @@ impl Parameter {
             Self::PlasticConstant => law.plastic_constant = Some(Pressure(value).into()),
             Self::Friction => law.friction = Some(Number(value).into()),
         }
+    }
+
+    /// Reads a value with a unit, or a bare SI number.
+    ///
+    /// # Errors
+    /// Where the text goes wrong.
+    pub fn read(self, text: &str) -> Result<f64, UnitError> {
+        Ok(match self {
+            Self::AdhesionDamping | Self::HertzDamping => text.parse::<InverseSpeed>()?.0,
+            Self::RoughnessFactor | Self::Friction => text.parse::<Number>()?.0,
+            Self::WorkOfAdhesion => text.parse::<SurfaceEnergy>()?.0,
+            Self::PlasticConstant => text.parse::<Pressure>()?.0,
+        })
     }
 
     /// What the law says of it: its own key, or what its materials and roughness give; else a usual value.

@@ -10,7 +10,7 @@ use carom::SpecError;
 use carom::material::Library;
 use carom::spec::{LawSpec, parse_named_law};
 use carom::units::Number;
-use carom_report::plot::Marker;
+use carom_report::plot::{Marker, Reference};
 use carom_report::{Axis, Column, Plot, Series, Table};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -188,6 +188,10 @@ pub fn table(found: &[Surveyed]) -> Result<Table, LabError> {
         columns.push(column("_error", &|s| of(s).standard_error));
         columns.push(column("_low", &|s| of(s).interval.map(|i| i.0)));
         columns.push(column("_high", &|s| of(s).interval.map(|i| i.1)));
+        if found.iter().any(|s| s.fit.bootstrap.is_some()) {
+            columns.push(column("_bootstrap_low", &|s| of(s).bootstrap.map(|i| i.0)));
+            columns.push(column("_bootstrap_high", &|s| of(s).bootstrap.map(|i| i.1)));
+        }
     }
     columns.push(Column::float("reduced_chi_square", "", found.iter().map(|s| s.fit.goodness.reduced_chi_square)));
     columns.push(Column::float("scatter", "", found.iter().map(|s| s.fit.goodness.scatter)));
@@ -214,6 +218,12 @@ pub fn plot(found: &[Surveyed]) -> Plot {
             let (x, y) = (estimates.iter().map(|e| e.0), estimates.iter().map(|e| e.1.value));
             let (low, high) = estimates.iter().map(|e| interval(e.1)).unzip::<_, _, Vec<_>, Vec<_>>();
             plot = plot.with(Series::points(label, x, y).interval(low, high).marker(marker));
+        }
+    }
+    for surveyed in found {
+        let (Some(surface), Some(modulus)) = (&surveyed.surface, surveyed.young_modulus) else { continue };
+        if !plot.references.iter().any(|r| r.value == modulus) {
+            plot = plot.reference(Reference::vertical(modulus, surface.as_str()));
         }
     }
     plot
