@@ -141,11 +141,16 @@ fn one(args: &Args, path: &std::path::Path) -> Result<(), Failure> {
     })?;
     let mut found = fit(&law.spec, &free, &data, &library, &args.options(BootstrapOptions::default().resamples))?;
     let materials = law.materials().unwrap_or_else(|| "sphere".to_owned());
-    let title = format!("{materials}, {}", law.normal_name());
-    let plots = [
-        args.plot.as_ref().map(|path| found.plot(&title, &library).map(|plot| (path, plot))).transpose()?,
-        args.residuals.as_ref().map(|path| (path, found.residual_plot(&title))),
-    ];
+    let tangential = law.spec.tangential.as_ref().map_or("rolling", |t| t.value.name());
+    let tangential = if oblique { format!(", {tangential}") } else { String::new() };
+    let title = format!("{materials}, {}{tangential}", law.normal_name());
+    let mut plots = Vec::new();
+    if let Some(path) = &args.plot {
+        plots.push((path, found.plot(&title, &library)?));
+    }
+    if let Some(path) = &args.residuals {
+        plots.push((path, found.residual_plot(&title)));
+    }
     if let Some(path) = &args.out {
         if !law.has_friction {
             found.law.friction = None;
@@ -154,7 +159,7 @@ fn one(args: &Args, path: &std::path::Path) -> Result<(), Failure> {
         std::fs::write(path, text).map_err(|source| Failure::from(LabError::File { path: path.clone(), source }))?;
         say(&format!("wrote {}", path.display()));
     }
-    for (path, plot) in plots.into_iter().flatten() {
+    for (path, plot) in plots {
         plot.write(path)?;
         say(&format!("wrote {}", path.display()));
     }

@@ -10,7 +10,7 @@ const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
 #[test]
 fn examples_are_real_and_pictures_are_drawn_by_their_commands() {
     std::env::set_current_dir(ROOT).expect("the root");
-    let pages = [("README.md", 1), ("docs/fit.md", 2)];
+    let pages = [("README.md", 1), ("docs/fit.md", 3)];
     let cases = trycmd::TestCases::new();
     for (page, _) in pages {
         cases.case(page);
@@ -18,7 +18,8 @@ fn examples_are_real_and_pictures_are_drawn_by_their_commands() {
     cases.run();
     for (page, pictures) in pages {
         let text = std::fs::read_to_string(page).expect("text");
-        let commands: Vec<&str> = text.lines().filter(|l| l.starts_with("carom ") && l.contains("--plot docs/")).collect();
+        let commands: Vec<&str> =
+            text.lines().filter(|l| l.starts_with("carom ") && l.contains("--plot docs/")).collect();
         assert_eq!(commands.len(), pictures, "{page}");
         commands.iter().for_each(|line| drawn_by(line, page, &text));
     }

@@ -1,6 +1,6 @@
 //! A fit as a reader sees it: the curve with the data, and what is left between them.
 
-use super::{Fit, bootstrap::quantile};
+use super::{Fit, Residual, bootstrap::quantile};
 use crate::compare::meet;
 use crate::error::LabError;
 use crate::experiment::Quantity;
@@ -26,6 +26,17 @@ struct View {
 }
 
 impl View {
+    fn along(&self) -> Axis {
+        match self.speed {
+            None => Axis::new("normal approach speed", "m/s").log(),
+            Some(_) => Axis::new("angle from the surface", "°").range(0.0, 90.0),
+        }
+    }
+
+    fn place(&self, residual: &Residual) -> f64 {
+        if self.speed.is_some() { residual.angle_deg } else { residual.normal_speed }
+    }
+
     fn at(&self, wall: &WallLaw, x: f64, diameter: f64) -> Result<f64, LabError> {
         let (speed, angle) = self.speed.map_or((x, 90.0), |speed| (speed, x));
         meet(wall, self.quantity, speed, angle, diameter).map_err(|e| LabError::Model(e.to_string()))
@@ -40,11 +51,10 @@ impl Fit {
     /// None in practice.
     pub fn plot(&self, title: &str, library: &Library) -> Result<Plot, LabError> {
         let view = self.view();
-        let (along, up) = match view.speed {
-            None => (Axis::new("normal approach speed", "m/s").log(), Axis::new("restitution", "").range(0.0, 1.05)),
-            Some(_) => {
-                (Axis::new("angle from the surface", "°").range(0.0, 90.0), Axis::new("tangential restitution", ""))
-            }
+        let along = view.along();
+        let up = match view.speed {
+            None => Axis::new("restitution", "").range(0.0, 1.05),
+            Some(_) => Axis::new("tangential restitution", ""),
         };
         let mut plot = Plot::new(title, along, up);
         let wall = self.law.compile(library).map_err(LabError::Fit)?;
@@ -77,11 +87,12 @@ impl Fit {
         Ok(plot)
     }
 
-    /// Measured minus fitted over normal speed, in standard uncertainties where the data have them.
+    /// Measured minus fitted over what [`Fit::plot`] runs over, in standard uncertainties where the data have them.
     pub fn residual_plot(&self, title: &str) -> Plot {
         let scaled = self.data.has_sigma();
         let up = if scaled { "(measured − fitted) / σ" } else { "measured − fitted" };
-        let mut plot = Plot::new(title, Axis::new("normal approach speed", "m/s").log(), Axis::new(up, ""));
+        let view = self.view();
+        let mut plot = Plot::new(title, view.along(), Axis::new(up, ""));
         let kinds = [
             (Quantity::Restitution, "restitution", Marker::Circle),
             (Quantity::TangentialRestitution, "tangential restitution", Marker::Triangle),
@@ -90,7 +101,7 @@ impl Fit {
             let of: Vec<_> = self.residuals.iter().filter(|r| r.quantity == quantity).collect();
             if !of.is_empty() {
                 let y = of.iter().map(|r| (r.measured - r.model) / r.sigma.filter(|_| scaled).unwrap_or(1.0));
-                plot = plot.with(Series::points(label, of.iter().map(|r| r.normal_speed), y).marker(marker));
+                plot = plot.with(Series::points(label, of.iter().map(|r| view.place(r)), y).marker(marker));
             }
         }
         plot.reference(Reference::horizontal(0.0, ""))
@@ -125,7 +136,7 @@ impl Fit {
 
     fn measured(&self, view: &View, label: &str, of: impl Fn(f64) -> bool) -> Series {
         let points: Vec<_> = self.residuals.iter().filter(|r| r.quantity == view.quantity && of(r.diameter)).collect();
-        let x = points.iter().map(|r| if view.speed.is_some() { r.angle_deg } else { r.normal_speed });
+        let x = points.iter().map(|r| view.place(r));
         let series = Series::points(label, x, points.iter().map(|r| r.measured));
         if self.data.has_sigma() {
             series.deviation(points.iter().map(|r| r.sigma.unwrap_or(f64::NAN)))

@@ -127,7 +127,7 @@ fn inner(problem: &Problem<'_>, form: Form, measured: &[f64], values: &mut [f64]
     }
     let x = DVector::from_iterator(columns.len(), columns.iter().map(|n| values[*n] / problem.scales[*n]));
     let descent = Descent { problem, form, measured, columns, values: values.to_vec(), x };
-    let method = LevenbergMarquardt::new().with_stepbound(10.0).with_patience(60).with_tol(1e-12);
+    let method = LevenbergMarquardt::new().with_stepbound(10.0).with_patience(60).with_tol(1e-8);
     let (end, _) = method.minimize(descent);
     let mut outside = Vec::new();
     for (n, x) in columns.iter().zip(end.x.iter()) {
