@@ -91,9 +91,8 @@ impl From<ReportError> for Failure {
 impl From<LabError> for Failure {
     fn from(error: LabError) -> Self {
         match error {
-            LabError::Experiment { name, text, error } | LabError::Data { name, text, error } => {
-                Self::in_file(error, &name, &text)
-            }
+            LabError::Experiment { name, text, error } => Self::in_file(error, &name, &text),
+            LabError::Data { name, text, error } => Self::in_file(*error, &name, &text),
             LabError::File { path, source } => of_file(&path.display().to_string(), &source),
             LabError::Report(error) => error.into(),
             LabError::Points(message) => Self::Input(message),

@@ -29,7 +29,7 @@ pub enum LabError {
         /// Its text.
         text: String,
         /// What is wrong, where.
-        error: SpecError,
+        error: Box<SpecError>,
     },
     /// What was asked of a fit makes no sense for its law or its data.
     #[error("{0}")]

@@ -57,7 +57,7 @@ impl Data {
     /// # Ok::<(), carom_lab::LabError>(())
     /// ```
     pub fn from_csv(name: &str, text: &str, diameter: Option<f64>) -> Result<Self, LabError> {
-        let wrong = |error| LabError::Data { name: name.to_owned(), text: text.to_owned(), error };
+        let wrong = |error| LabError::Data { name: name.to_owned(), text: text.to_owned(), error: Box::new(error) };
         let rows = read(text).map_err(wrong)?;
         let mut points = Vec::with_capacity(rows.rows.len());
         for row in &rows.rows {

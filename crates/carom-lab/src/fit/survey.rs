@@ -60,7 +60,7 @@ pub fn read(path: &Path, diameter: Option<f64>) -> Result<Vec<Subject>, LabError
     }
     let name = path.display().to_string();
     let text = read_file(path)?;
-    let wrong = |error: SpecError| LabError::Data { name: name.clone(), text: text.clone(), error };
+    let wrong = |error: SpecError| LabError::Data { name: name.clone(), text: text.clone(), error: Box::new(error) };
     let file: File = toml::from_str(&text).map_err(|e| wrong(e.into()))?;
     let stem = path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
     let mut subjects = Vec::new();
