@@ -26,6 +26,7 @@ mod normal;
 mod roughness;
 mod tangential;
 mod values;
+mod write;
 
 pub use curve::CurveSpec;
 pub use normal::{NormalKind, NormalSpec};
@@ -39,56 +40,80 @@ use crate::units::{InverseSpeed, Length, Number, Pressure, Speed, SurfaceEnergy}
 use std::collections::BTreeMap;
 
 /// A wall law as written. Everything but `normal` may be absent; what a law needs and lacks is reported by [`LawSpec::compile`].
-#[derive(Clone, Debug, Default, PartialEq, serde::Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, serde::Deserialize, serde::Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct LawSpec {
     /// The sphere's material.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub sphere: Option<At<MaterialRef>>,
     /// The surface's material.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub surface: Option<At<MaterialRef>>,
     /// Normal law.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub normal: Option<At<NormalSpec>>,
     /// Resolved only: when adhesion acts.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub adhesion: Option<At<AdhesionMode>>,
     /// Tangential law; `rolling` when absent, `constant` or `by-angle` when a tangential restitution is given.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub tangential: Option<At<TangentialKind>>,
     /// Coulomb friction coefficient f.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub friction: Option<At<Number>>,
     /// Walton's β₀.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub walton_beta: Option<At<Number>>,
     /// C_R.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub roughness_factor: Option<At<Number>>,
     /// σ_r.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub roughness: Option<At<Length>>,
     /// How C_R follows from σ_r; `rabinovich` when absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub roughness_model: Option<At<RoughnessModel>>,
     /// Radius β of the asperities, for `fuller-tabor`.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub asperity_radius: Option<At<Length>>,
     /// C_A.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub adhesion_damping: Option<At<InverseSpeed>>,
     /// C_H.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub hertz_damping: Option<At<InverseSpeed>>,
     /// Radius of curvature r_s of the surface: `"inf"` for flat, negative for concave.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub surface_curvature: Option<At<values::CurvatureRadius>>,
     /// Normal restitution of the constant and by-angle laws.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub restitution: Option<At<CurveSpec>>,
     /// Tangential restitution e_t.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub tangential_restitution: Option<At<CurveSpec>>,
     /// Tabor's fitted yield velocity.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub yield_velocity: Option<At<Speed>>,
     /// Meyer's index n.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub meyer_index: Option<At<Number>>,
     /// Thornton–Ning's limiting peak pressure p_y.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub limiting_pressure: Option<At<Pressure>>,
     /// Interfacial parameter Φ.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub interfacial_parameter: Option<At<Number>>,
     /// Equilibrium spacing z₀.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub equilibrium_spacing: Option<At<Length>>,
     /// Override of the work of adhesion w.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub work_of_adhesion: Option<At<SurfaceEnergy>>,
     /// Override of the stiffness K.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub stiffness: Option<At<Pressure>>,
     /// Override of the plastic constant k.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub plastic_constant: Option<At<Pressure>>,
 }
 
