@@ -1,7 +1,7 @@
 //! The command line as a whole.
 
 use crate::failure::Failure;
-use crate::{capture, impact, materials, merge, run, sweep, validate};
+use crate::{capture, export, impact, materials, merge, run, sweep, validate};
 use clap::{Parser, Subcommand};
 
 const EXAMPLES: &str = "\
@@ -12,6 +12,7 @@ Examples:
   carom materials copper
   carom run examples/wind-tunnel.toml --out out/
   carom validate --out report/
+  carom export --format openfoam --wall-law walls.toml:glass --diameter 10um..100um --speed 0.1..30
 
 Quantities take a unit (90um, 2m/s, 190GPa) or are SI numbers. `carom SUBCOMMAND --help` says more.
 Exit codes: 0 done, 2 the input is wrong, 1 anything else.";
@@ -33,6 +34,7 @@ enum Command {
     Run(run::Args),
     Merge(merge::Args),
     Validate(validate::Args),
+    Export(Box<export::Args>),
 }
 
 impl Cli {
@@ -46,6 +48,7 @@ impl Cli {
             Command::Run(args) => run::run(args),
             Command::Merge(args) => merge::merge(args),
             Command::Validate(args) => validate::run(args),
+            Command::Export(args) => export::run(args),
         }
     }
 }

@@ -1,4 +1,4 @@
-//! The README tells the truth: its examples run from the root as written, and its picture is what its command draws.
+//! The README and the guide to exports tell the truth: their examples run from the root as written, and its picture is what its command draws.
 //!
 //! A program of its own, since it works in the root folder.
 
@@ -9,7 +9,7 @@ const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
 #[test]
 fn examples_are_real_and_the_picture_is_drawn_by_its_command() {
     std::env::set_current_dir(ROOT).expect("the root");
-    trycmd::TestCases::new().case("README.md");
+    trycmd::TestCases::new().case("README.md").case("docs/export.md");
 
     let readme = std::fs::read_to_string("README.md").expect("text");
     let line =
