@@ -104,8 +104,7 @@ pub struct Settings {
 }
 
 /// Local error of a step over the tolerance of a first impact. Errors of steps add up, and a shallow approach turns an
-/// error across the wall into a larger one of the time. In ten cases of 2000 random starts (still air, wind, shear, a pipe;
-/// starts at rest too) halving a tolerance of 1e-4 to 1e-8 moved times by 0.02 to 0.7 of it at most.
+/// error across the wall into a larger one of the time: docs/benchmarks.md says by how much.
 const PER_STEP: f64 = 1.0 / 30.0;
 /// Largest local error: beyond, the estimate says little of the error.
 const COARSEST: f64 = 1e-5;
