@@ -21,7 +21,7 @@ pub struct Impact {
     pub normal: Vec3,
     /// Velocity of the wall at the contact point, m/s.
     pub wall_velocity: Vec3,
-    /// Uniform draws in [0, 1) for laws that scatter; the caller owns the randomness. No law uses them yet.
+    /// Uniform draws in [0, 1) for walls that scatter ([`crate::scatter`]); the caller owns the randomness. Smooth walls use none.
     pub draws: [f64; 4],
 }
 
@@ -98,7 +98,8 @@ pub struct Outcome {
     pub velocity: Vec3,
     /// Angular velocity after the impact, rad/s.
     pub spin: Vec3,
-    /// e, 0 for a capture.
+    /// e, 0 for a capture; at most 1, but for a wall that scatters ([`crate::scatter`]): there it takes the speeds normal to the mean
+    /// wall and may exceed 1 at shallow angles.
     pub restitution: f64,
     /// μ = |Δv_t|/((1 + e)v_n); NaN for a capture.
     pub impulse_ratio: f64,

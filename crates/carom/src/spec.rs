@@ -35,7 +35,7 @@ use crate::error::{SpecError, did_you_mean};
 use crate::material::MaterialRef;
 use crate::resolved::AdhesionMode;
 use crate::roughness::RoughnessModel;
-use crate::units::{InverseSpeed, Length, Number, Pressure, Speed, SurfaceEnergy};
+use crate::units::{Angle, InverseSpeed, Length, Number, Pressure, Speed, SurfaceEnergy};
 use std::collections::BTreeMap;
 
 /// A wall law as written. Everything but `normal` may be absent; what a law needs and lacks is reported by [`LawSpec::compile`].
@@ -64,6 +64,8 @@ pub struct LawSpec {
     pub roughness_model: Option<At<RoughnessModel>>,
     /// Radius β of the asperities, for `fuller-tabor`.
     pub asperity_radius: Option<At<Length>>,
+    /// Δγ, standard deviation of the roughness angle: the wall scatters.
+    pub roughness_angle: Option<At<Angle>>,
     /// C_A.
     pub adhesion_damping: Option<At<InverseSpeed>>,
     /// C_H.
