@@ -53,13 +53,13 @@ pub const LARGEST: f64 = std::f64::consts::PI / 6.0;
 const FAR: f64 = 8.5;
 /// The smallest probability inverted: half the step of a draw.
 const SMALLEST: f64 = 1.0 / (1u64 << 54) as f64;
-/// Terms of the series of Φ(x − iσ): the rest is below 1e-15 at the largest σ.
-const TERMS: usize = 22;
 
 /// A wall whose facets are tilted by a Gaussian roughness angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scatter {
     deviation: f64,
+    /// Terms of the series of Φ(x − iΔγ) that count.
+    terms: u32,
 }
 
 /// Integral of φ(x) sin(α + σx), times e^{σ²/2}, with x = γ/σ.
@@ -67,14 +67,16 @@ struct Weighted {
     sin: f64,
     cos: f64,
     sigma: f64,
+    terms: u32,
 }
 
 impl Weighted {
     /// The integral from −∞ to `x`.
+    #[inline(always)]
     fn integral(&self, x: f64) -> f64 {
         let (mut real, mut imaginary) = (0.0, 0.0);
         let (mut he, mut before, mut power) = (1.0, 0.0, self.sigma);
-        for n in 1..=TERMS {
+        for n in 1..=self.terms {
             let term = power * he;
             // iⁿ for n = 1, 2, 3, 4, ...
             match n % 4 {
@@ -84,14 +86,15 @@ impl Weighted {
                 _ => real += term,
             }
             // He_n = x He_{n−1} − (n − 1) He_{n−2}; the power is σⁿ/n!
-            (he, before) = (x * he - (n as f64 - 1.0) * before, he);
-            power *= self.sigma / (n as f64 + 1.0);
+            (he, before) = (x * he - f64::from(n - 1) * before, he);
+            power *= self.sigma / f64::from(n + 1);
         }
         let density = normal_density(x);
         self.sin * (normal_probability(x) - density * real) - self.cos * density * imaginary
     }
 
     /// sin(α + σx) and cos(α + σx).
+    #[inline(always)]
     fn direction(&self, x: f64) -> (f64, f64) {
         let (s, c) = sin_cos(self.sigma * x);
         (self.sin * c + self.cos * s, self.cos * c - self.sin * s)
@@ -101,7 +104,14 @@ impl Weighted {
 impl Scatter {
     /// A wall of the deviation Δγ in rad, above 0 and up to [`LARGEST`]; beyond, it is taken as that.
     pub fn new(deviation: f64) -> Self {
-        Self { deviation: deviation.clamp(0.0, LARGEST) }
+        let deviation = deviation.clamp(0.0, LARGEST);
+        // |φ He_{n−1}| stays below √n!, so that a term is below σⁿ/√n!: 22 of them at the largest σ, 12 at 5°
+        let (mut terms, mut bound) = (1, deviation);
+        while bound > 1e-17 {
+            terms += 1;
+            bound *= deviation / f64::from(terms).sqrt();
+        }
+        Self { deviation, terms }
     }
 
     /// Δγ, rad.
@@ -110,13 +120,19 @@ impl Scatter {
     }
 
     /// The limits of γ/Δγ.
+    #[inline(always)]
     fn ends(&self, sin: f64, cos: f64) -> (f64, f64) {
         (-(angle(cos, sin) / self.deviation).min(FAR), (FRAC_PI_2 / self.deviation).min(FAR))
     }
 
+    #[inline(always)]
+    fn weighted(&self, sin: f64, cos: f64) -> Weighted {
+        Weighted { sin, cos, sigma: self.deviation, terms: self.terms }
+    }
+
     /// Density of γ (rad) at the angle of incidence α, given by its sine and cosine (both ≥ 0), 1/rad.
     pub fn density(&self, sin: f64, cos: f64, gamma: f64) -> f64 {
-        let weighted = Weighted { sin, cos, sigma: self.deviation };
+        let weighted = self.weighted(sin, cos);
         let (low, high) = self.ends(sin, cos);
         let x = gamma / self.deviation;
         if !(low..=high).contains(&x) {
@@ -128,8 +144,9 @@ impl Scatter {
     }
 
     /// γ, rad, in (−α, π/2), for a uniform draw in [0, 1) and the angle of incidence α, given by its sine and cosine (both ≥ 0).
+    #[inline(always)]
     pub fn tilt(&self, sin: f64, cos: f64, draw: f64) -> f64 {
-        let weighted = Weighted { sin, cos, sigma: self.deviation };
+        let weighted = self.weighted(sin, cos);
         let (mut low, mut high) = self.ends(sin, cos);
         let from = weighted.integral(low);
         let draw = draw.max(SMALLEST);
@@ -163,6 +180,7 @@ impl Scatter {
     }
 
     /// δ, rad, in (−π/2, π/2), for a uniform draw in [0, 1).
+    #[inline(always)]
     pub fn sideways(&self, draw: f64) -> f64 {
         let end = (FRAC_PI_2 / self.deviation).min(FAR);
         let below = normal_probability(-end);
@@ -171,6 +189,7 @@ impl Scatter {
     }
 
     /// The facet that a sphere meets which moves at `relative` (m/s) to the mean wall and not away from it: its unit normal.
+    #[inline(always)]
     pub(crate) fn facet(&self, relative: &Vec3, normal: &Vec3, draws: [f64; 2]) -> Vec3 {
         let v_n = (-dot(relative, normal)).max(0.0);
         let along: Vec3 = std::array::from_fn(|i| v_n.mul_add(normal[i], relative[i]));

@@ -4,6 +4,7 @@ use super::{exp, ln};
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
 /// Density e^{−x²/2}/√(2π).
+#[inline(always)]
 pub fn normal_density(x: f64) -> f64 {
     exp(-0.5 * x * x) / (2.0 * PI).sqrt()
 }
@@ -14,6 +15,7 @@ pub fn normal_density(x: f64) -> f64 {
 /// use carom::math::normal::normal_probability;
 /// assert!((normal_probability(1.959963984540054) - 0.975).abs() < 1e-15);
 /// ```
+#[inline(always)]
 pub fn normal_probability(x: f64) -> f64 {
     0.5 * libm::erfc(-x * FRAC_1_SQRT_2)
 }
@@ -25,6 +27,7 @@ pub fn normal_probability(x: f64) -> f64 {
 /// let z = carom::math::normal::normal_quantile(0.975);
 /// assert!((z - 1.959963984540054).abs() < 1e-14);
 /// ```
+#[inline]
 pub fn normal_quantile(p: f64) -> f64 {
     let q = p - 0.5;
     if q.abs() <= 0.425 {
@@ -37,6 +40,7 @@ pub fn normal_quantile(p: f64) -> f64 {
     if q < 0.0 { -z } else { z }
 }
 
+#[inline(always)]
 fn ratio(r: f64, c: &[[f64; 8]; 2]) -> f64 {
     let horner = |c: &[f64; 8]| c.iter().rev().fold(0.0, |sum, a| sum * r + a);
     horner(&c[0]) / horner(&c[1])

@@ -8,6 +8,16 @@ use crate::scatter::Scatter;
 impl WallLaw {
     #[cold]
     pub(super) fn rough_impact(&self, scatter: &Scatter, impact: &Impact) -> Result<Outcome, ImpactError> {
+        #[cfg(target_arch = "x86_64")]
+        if std::arch::is_x86_feature_detected!("fma") {
+            // SAFETY: the processor has the features the function is compiled for, as was just asked.
+            return unsafe { rough_fma(self, scatter, impact) };
+        }
+        self.rough_body(scatter, impact)
+    }
+
+    #[inline(always)]
+    fn rough_body(&self, scatter: &Scatter, impact: &Impact) -> Result<Outcome, ImpactError> {
         let square = dot(&impact.normal, &impact.normal);
         let normal = if checks::is_unit(square) { impact.normal } else { checks::unit(&impact.normal, square)? };
         let size = self.size(impact.diameter, impact.density)?;
@@ -38,6 +48,12 @@ impl WallLaw {
         }
         path.against(&coming, &normal, &impact.wall_velocity).ok_or(ImpactError::NotApproaching)
     }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "fma")]
+fn rough_fma(law: &WallLaw, scatter: &Scatter, impact: &Impact) -> Result<Outcome, ImpactError> {
+    law.rough_body(scatter, impact)
 }
 
 fn relative(velocity: &Vec3, wall: &Vec3) -> Vec3 {
