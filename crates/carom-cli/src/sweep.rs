@@ -7,7 +7,7 @@ use crate::motion::{ImpactArgs, Met, refused};
 use crate::output::Files;
 use crate::samples::{SampleArgs, Sampling};
 use crate::study::{Figure, NOTHING, Study, drawn, is_drawn};
-use crate::text::{plotted, quantity};
+use crate::text::{number, plotted, quantity};
 use crate::uncertain::Given;
 use carom_report::plot::Reference;
 use carom_report::{Axis, Column, Plot, Series, Table};
@@ -231,6 +231,9 @@ fn title(grid: &Grid, laws: &[Law]) -> String {
     }
     if let (false, Some(angle)) = (grid.varies("angle") || grid.quantity() == Swept::Angle, motion.angle) {
         parts.push(format!("{angle}°"));
+    }
+    if let (false, Some(scatter)) = (grid.varies("roughness-angle"), law.wall.scatter()) {
+        parts.push(format!("roughness angle {}°", number(scatter.deviation().to_degrees())));
     }
     let drawn = drawn(&curve.args).filter(|(flag, _)| !grid.varies(flag));
     parts.extend(drawn.map(|(flag, d)| format!("{} {d}", flag.replace('-', " "))));
