@@ -136,6 +136,13 @@ struct File {
     law: BTreeMap<String, LawSpec>,
 }
 
+/// The laws of a text, none of them read yet.
+#[derive(serde::Deserialize)]
+struct Names {
+    #[serde(default)]
+    law: BTreeMap<String, toml::Spanned<toml::Value>>,
+}
+
 /// Reads the law `name` from a text with `[law.NAME]` tables (a law file or a whole case file; other tables are left alone).
 ///
 /// # Errors
@@ -147,12 +154,7 @@ struct File {
 /// assert!(carom::spec::parse_named_law(text, "glas").unwrap_err().to_string().contains("did you mean glass?"));
 /// ```
 pub fn parse_named_law(text: &str, name: &str) -> Result<LawSpec, SpecError> {
-    #[derive(serde::Deserialize)]
-    struct Laws {
-        #[serde(default)]
-        law: BTreeMap<String, toml::Spanned<toml::Value>>,
-    }
-    let found: Laws = toml::from_str(text)?;
+    let found: Names = toml::from_str(text)?;
     if !found.law.contains_key(name) {
         let names: Vec<&str> = found.law.keys().map(String::as_str).collect();
         let near = did_you_mean(name, names.iter().copied()).unwrap_or_default();
@@ -165,6 +167,30 @@ pub fn parse_named_law(text: &str, name: &str) -> Result<LawSpec, SpecError> {
     }
     let mut file: File = toml::from_str(text)?;
     file.law.remove(name).ok_or_else(|| SpecError::new(format!("no law '{name}'")))
+}
+
+/// Reads the one law of a text: its only `[law.NAME]` table or, in a text without such tables, the keys of a law without a header.
+///
+/// # Errors
+/// A text that cannot be read, a bad law, more than one law.
+///
+/// ```
+/// use carom::spec::{parse_law, parse_only_law};
+/// let keys = "normal = \"constant\"\nrestitution = 0.9\nfriction = 0.1\n";
+/// assert!(parse_only_law(keys).is_ok() && parse_only_law(&format!("[law.glass]\n{keys}")).is_ok());
+/// assert!(parse_only_law(&format!("[law.a]\n{keys}[law.b]\n{keys}")).unwrap_err().to_string().contains("a, b"));
+/// ```
+pub fn parse_only_law(text: &str) -> Result<LawSpec, SpecError> {
+    let found: Names = toml::from_str(text)?;
+    let names: Vec<&String> = found.law.keys().collect();
+    match names.as_slice() {
+        [] => parse_law(text),
+        [name] => parse_named_law(text, name),
+        several => {
+            let known = several.iter().map(|n| n.as_str()).collect::<Vec<_>>().join(", ");
+            Err(SpecError::new("the text holds more than one law").help(format!("name one of {known}")))
+        }
+    }
 }
 
 #[cfg(test)]
