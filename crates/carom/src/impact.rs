@@ -125,8 +125,11 @@ pub enum ImpactError {
     /// The density is not positive, or not within a factor of 1000 of the law's sphere.
     #[error("the density must be positive and within a factor of 1000 of the law's sphere")]
     Density,
-    /// A velocity, spin or normal is NaN or infinite, or the motion is beyond about 1e9 m/s.
-    #[error("velocities and spins must be finite and below 1e9 m/s at the surface, the normal finite and not zero")]
+    /// A velocity, spin or normal is NaN or infinite, the motion is beyond about 1e9 m/s, or a wall that scatters is given a draw outside
+    /// [0, 1).
+    #[error(
+        "velocities and spins must be finite and below 1e9 m/s at the surface, the normal finite and not zero, draws in [0, 1)"
+    )]
     NotFinite,
     /// The concave surface is not wider than the sphere.
     #[error("the surface is concave and its radius of curvature must exceed the sphere's radius")]

@@ -147,6 +147,18 @@ fn extreme_draws_stay_within_the_shadow() {
 }
 
 #[test]
+fn draws_that_are_none_are_refused() {
+    let law = bouncing(0.3, 5.0);
+    for bad in [f64::NAN, -0.1, 1.0, f64::INFINITY] {
+        for place in 0..4 {
+            let mut draws = [0.5; 4];
+            draws[place] = bad;
+            assert_eq!(law.impact(&at(30.0, draws)), Err(carom::ImpactError::NotFinite));
+        }
+    }
+}
+
+#[test]
 fn a_wall_without_tilt_is_the_smooth_wall_to_the_bit() {
     let smooth = common::law("normal = \"constant\"\nrestitution = 0.8\nfriction = 0.3\n");
     let flat = bouncing(0.3, 0.0);

@@ -26,6 +26,9 @@ impl WallLaw {
         checks::approach(-dot(&coming, &normal), dot(&coming, &coming) + rotational)?;
 
         let [a, b, c, d] = impact.draws;
+        if !impact.draws.iter().all(|u| (0.0..1.0).contains(u)) {
+            return Err(ImpactError::NotFinite);
+        }
         // in the wall's own frame, so that a moving wall costs no digits more than once
         let mut motion = Impact { normal, velocity: coming, wall_velocity: [0.0; 3], ..*impact };
         let mut path = Path::default();
