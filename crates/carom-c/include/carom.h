@@ -162,7 +162,7 @@ typedef struct carom_impact_out {
     double velocity[3];
     // Angular velocity after the impact, rad/s.
     double spin[3];
-    // Restitution e, 0 for a capture.
+    // Restitution e, 0 for a capture; may exceed 1 on a wall that scatters.
     double restitution;
     // Impulse ratio, tangential over normal; NaN for a capture.
     double impulse_ratio;
