@@ -4,7 +4,7 @@
 //! along the tangential speed) and diameter in; normal and tangential speed and spin out. The loops are compiled for AVX-512, AVX2 and
 //! the plain machine; the best is chosen at run time and changes no bit of the result.
 //!
-//! A wall that scatters ([`crate::scatter`]) goes row by row, about a microsecond each: [`WallLaw::impact_batch`] then takes every
+//! A wall that scatters ([`crate::scatter`]) goes row by row, a microsecond or two each: [`WallLaw::impact_batch`] then takes every
 //! draw at ½, [`WallLaw::impact_batch_drawn`] the draws it is given, and the columns hold the motion in the incoming plane.
 //!
 //! ```
