@@ -21,8 +21,10 @@ instructions() { # of N and of 2N rounds; the difference is that of N rounds alo
 instructions Rust "$rust" 32
 instructions C "$work/cost" 32
 instructions "C, batch" "$work/cost" 32 batch
+instructions "C, columns (AVX2)" "$work/cost" 32 columns
 for _ in 1 2 3 4 5; do
     "$rust" "$rounds"
     "$work/cost" "$rounds"
     "$work/cost" "$rounds" batch
+    "$work/cost" "$rounds" columns
 done

@@ -200,7 +200,7 @@ impl WallLaw {
             // SAFETY: the processor has the features the function is compiled for, as was just asked.
             return unsafe { impact_fma(self, impact) };
         }
-        self.impact_inlined(impact)
+        self.smooth_body(impact)
     }
 
     /// As [`WallLaw::impact`], compiled into the caller for the caller's own instruction set: the same bits, and the answer need not pass
@@ -210,6 +210,28 @@ impl WallLaw {
     /// As [`WallLaw::impact`].
     #[inline(always)]
     pub fn impact_inlined(&self, impact: &Impact) -> Result<Outcome, ImpactError> {
+        match &self.scatter {
+            None => self.smooth_body(impact),
+            Some(scatter) => self.rough_impact(scatter, impact),
+        }
+    }
+
+    #[inline(always)]
+    fn smooth_body(&self, impact: &Impact) -> Result<Outcome, ImpactError> {
+        // what is added to a law must be heeded here, or by `impact` and `impact_inlined` both, as scatter is
+        let Self {
+            normal: _,
+            tangential: _,
+            density: _,
+            surface_curvature: _,
+            contact_limit: _,
+            validity: _,
+            pair: _,
+            roughness: _,
+            roughness_factor: _,
+            spacing: _,
+            scatter: _,
+        } = self;
         let square = dot(&impact.normal, &impact.normal);
         let normal = if checks::is_unit(square) { impact.normal } else { checks::unit(&impact.normal, square)? };
         let size = self.size(impact.diameter, impact.density)?;
@@ -278,7 +300,7 @@ impl WallLaw {
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "fma")]
 fn impact_fma(law: &WallLaw, impact: &Impact) -> Result<Outcome, ImpactError> {
-    law.impact_inlined(impact)
+    law.smooth_body(impact)
 }
 
 struct Sliding {

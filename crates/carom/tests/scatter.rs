@@ -279,7 +279,9 @@ proptest! {
     fn no_energy_is_gained_and_no_rebound_leads_into_the_wall(impact in impacts(), draws in uniform()) {
         let impact = Impact { draws, ..impact };
         for (text, law) in rough_laws() {
-            let Ok(out) = law.impact(&impact) else { continue };
+            let answer = law.impact(&impact);
+            prop_assert_eq!(format!("{:?}", law.impact_inlined(&impact)), format!("{answer:?}"), "{}", text);
+            let Ok(out) = answer else { continue };
             let e = &out.energy;
             prop_assert!(e.named().iter().all(|(_, f)| *f >= -1e-12 && *f <= 1.0 + 1e-12), "{text}: {e:?}");
             let sum: f64 = e.named().iter().map(|(_, f)| f).sum();
