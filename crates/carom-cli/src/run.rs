@@ -144,7 +144,7 @@ pub fn tell(summary: &Summary) -> Result<String, Failure> {
         Column::count("impacts", walls.iter().map(|w| w.impacts)),
         Column::count("rebounds", walls.iter().map(|w| w.rebounds)),
     ];
-    for fate in [Fate::Captured, Fate::Settled, Fate::Trapped, Fate::Escaped] {
+    for fate in Fate::AT_WALLS {
         if summary.count(fate) > 0 {
             columns.push(Column::count(fate.name(), walls.iter().map(|w| w.ends[fate as usize].count)));
         }

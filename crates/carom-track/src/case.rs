@@ -6,6 +6,7 @@
 mod check;
 mod flow;
 mod injection;
+mod removal;
 mod text;
 mod wall;
 
@@ -93,7 +94,10 @@ impl Case {
         let behaviors = read
             .wall
             .iter()
-            .map(|at| wall::behavior(at, &read.law, &injections, library))
+            .map(|at| {
+                let behavior = wall::behavior(at, &read.law, &injections, library)?;
+                removal::with_removal(behavior, &at.value, &flow, &fluid, largest)
+            })
             .collect::<Result<Vec<_>, _>>()?;
         unused_laws(&read, library)?;
         let settings = settings(&read, seed, &behaviors)?;
@@ -198,7 +202,7 @@ fn sampled_starts(walls: &[Wall], injections: &[Injected], behaviors: &[Behavior
                     .help("a normal points out of the wall into the fluid; a sphere needs one radius of room")
                     .at(injected.place.clone()));
                 }
-                let Behavior::Law(laws) = behavior else { continue };
+                let Some(laws) = behavior.laws() else { continue };
                 let Some(law) = laws.get(index).or(laws.first()) else { continue };
                 let density = Some(start.density);
                 let trial = Impact { density, ..Impact::new(start.diameter, [0.0, -1.0, 0.0], [0.0, 1.0, 0.0]) };

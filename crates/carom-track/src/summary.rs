@@ -3,6 +3,7 @@
 use crate::deposition::{Bins, Deposition};
 use crate::exact_sum::ExactSum;
 use crate::record::{End, Event, Fate, ImpactRecord};
+use carom::removal::Mode;
 use serde::Serialize;
 use serde::ser::SerializeMap;
 
@@ -37,7 +38,9 @@ pub struct WallTally {
     /// Rebounds from it.
     pub rebounds: u64,
     /// Ends at it, by fate in the order of [`Fate::ALL`].
-    pub ends: [Amount; 5],
+    pub ends: [Amount; 6],
+    /// How many the flow took off it again by rolling, sliding and lifting.
+    pub removed: [u64; 3],
 }
 
 /// A run, or a part of one. Parts add up to the whole, to the bit, in any order.
@@ -48,7 +51,7 @@ pub struct Summary {
     /// All that was injected.
     pub injected: Amount,
     /// By fate, in the order of [`Fate::ALL`].
-    pub fates: [Amount; 5],
+    pub fates: [Amount; 6],
     /// By wall.
     pub walls: Vec<WallTally>,
     /// What walls kept, by region and size bin.
@@ -83,6 +86,9 @@ impl Summary {
         if let Some(wall) = self.walls.get_mut(impact.wall) {
             wall.impacts += 1;
             wall.rebounds += u64::from(impact.event == Event::Rebound);
+            if let Event::Remove(mode) = impact.event {
+                wall.removed[mode as usize] += 1;
+            }
         }
     }
 
@@ -104,6 +110,7 @@ impl Summary {
         for (a, b) in self.walls.iter_mut().zip(&other.walls) {
             a.impacts += b.impacts;
             a.rebounds += b.rebounds;
+            a.removed.iter_mut().zip(b.removed).for_each(|(a, b)| *a += b);
             for (a, b) in a.ends.iter_mut().zip(&b.ends) {
                 a.merge(b);
             }
@@ -121,9 +128,10 @@ impl Summary {
 
 struct Report<'a>(&'a Summary);
 struct Fates<'a>(&'a Summary);
-struct Masses<'a>(&'a [Amount; 5]);
+struct Masses<'a>(&'a [Amount; 6]);
 struct Walls<'a>(&'a [WallTally]);
 struct One<'a>(&'a WallTally);
+struct Modes([u64; 3]);
 
 impl Serialize for Report<'_> {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
@@ -168,11 +176,18 @@ impl Serialize for One<'_> {
         let mut map = serializer.serialize_map(None)?;
         map.serialize_entry("impacts", &self.0.impacts)?;
         map.serialize_entry("rebounds", &self.0.rebounds)?;
-        for fate in [Fate::Captured, Fate::Settled, Fate::Trapped, Fate::Escaped] {
+        for fate in Fate::AT_WALLS {
             let amount = &self.0.ends[fate as usize];
             map.serialize_entry(fate.name(), &amount.count)?;
             map.serialize_entry(&format!("{}_mass", fate.name()), &amount.mass.value())?;
         }
+        map.serialize_entry("removed_by", &Modes(self.0.removed))?;
         map.end()
+    }
+}
+
+impl Serialize for Modes {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(Mode::ALL.iter().zip(self.0).map(|(mode, count)| (mode.name(), count)))
     }
 }

@@ -8,6 +8,7 @@
 mod chance;
 mod lane;
 mod meeting;
+mod removal;
 mod wall_jet;
 
 use crate::domain::Domain;
@@ -17,6 +18,7 @@ use crate::integrate::{Control, Derivative, Lanes, Lanes3, Motion, Rates, Step, 
 use crate::record::{End, Fate, Sink};
 use crate::vector::Vec3;
 use lane::Lane;
+pub use removal::Removal;
 
 /// A particle as it is injected.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -108,12 +110,24 @@ const PER_STEP: f64 = 1.0 / 30.0;
 pub enum Behavior {
     /// A wall law decides: one for each injection's material, or one for all.
     Law(Vec<carom::WallLaw>),
+    /// Likewise, and the flow takes spheres that would stay off again where it is strong enough.
+    Removal(Vec<carom::WallLaw>, Removal),
     /// It stays, whatever its speed.
     Trap,
     /// It leaves the domain.
     Escape,
     /// It leaves along the wall, as a jet's momentum spreads.
     WallJet,
+}
+
+impl Behavior {
+    /// The wall laws, if laws decide.
+    pub fn laws(&self) -> Option<&[carom::WallLaw]> {
+        match self {
+            Self::Law(laws) | Self::Removal(laws, _) => Some(laws),
+            Self::Trap | Self::Escape | Self::WallJet => None,
+        }
+    }
 }
 
 /// All that stays the same during a run.

@@ -4,14 +4,13 @@
 mod study;
 
 use carom_track::Case;
+use carom_track::flow::{Channel, Profile};
 use carom_track::force::Sphere;
 use carom_track::record::{Event, Fate};
-use carom_track::tracker::Behavior;
 use study::{CaseFile, Paths, Result, Track, linspace, meters, track};
 
 fn law(case: &Case) -> &carom::WallLaw {
-    let law = case.behaviors.iter().find_map(|b| if let Behavior::Law(laws) = b { laws.first() } else { None });
-    law.expect("a wall with a law")
+    case.behaviors.iter().find_map(|b| b.laws()?.first()).expect("a wall with a law")
 }
 
 #[test]
@@ -37,7 +36,7 @@ fn every_case_file_runs_with_a_few_spheres() -> Result<()> {
         assert_eq!(track(&case, Paths::Dropped).len() as u64, case.count(), "{name}: a sphere without an end");
         seen += 1;
     }
-    assert!(seen >= 4, "{seen} case files");
+    assert!(seen >= 5, "{seen} case files");
     Ok(())
 }
 
@@ -57,6 +56,28 @@ fn wind_tunnel_spheres_bounce_until_the_capture_velocity() -> Result<()> {
             assert!(track.impacts.windows(2).all(|i| i[1].restitution < i[0].restitution));
         }
     }
+    Ok(())
+}
+
+#[test]
+fn the_duct_keeps_the_spheres_its_flow_is_too_slow_to_roll_off() -> Result<()> {
+    let mut file = CaseFile::read("removal.toml")?;
+    for injection in file.list("injection") {
+        injection.insert("count".into(), 200.into());
+    }
+    let case = file.case()?;
+    let fluid = case.dynamics.fluid;
+    let air = carom::removal::Fluid { density: fluid.density, viscosity: fluid.viscosity };
+    let channel = Channel::new(Profile::Turbulent, 0.03, 20.0, &fluid)?;
+    let mut ends = [0, 0];
+    for track in track(&case, Paths::Dropped) {
+        let rolls = law(&case).removal(track.end.particle.diameter, &air)?.expect("it adheres").rolling;
+        let removed = channel.friction_velocity() > rolls.friction_velocity;
+        assert_eq!(track.end.fate == Fate::Removed, removed, "{:?}", track.end);
+        assert!(removed || matches!(track.end.fate, Fate::Captured | Fate::Settled));
+        ends[usize::from(removed)] += 1;
+    }
+    assert!(ends.iter().all(|n| *n > 40), "{ends:?}");
     Ok(())
 }
 

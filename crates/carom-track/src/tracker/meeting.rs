@@ -57,6 +57,11 @@ impl<D: Domain> Tracker<'_, D> {
                 put(crew, l, hit.meeting.position, after.velocity, after.spin);
             }
         }
+        if matches!(after.event, Event::Capture | Event::Settle)
+            && let Some(mode) = self.removes(crew, l, hit)
+        {
+            after.event = Event::Remove(mode);
+        }
         sink.impact(&record(&crew.lanes[l], hit, v, spin, &after));
         if let Some(fate) = after.event.ends() {
             finish(crew, l, fate, Some(hit.wall), sink);
@@ -89,11 +94,14 @@ impl<D: Domain> Tracker<'_, D> {
                 let velocity = add(out, hit.wall_velocity);
                 return After { velocity, spin, restitution: f64::NAN, ..stay(Event::Rebound) };
             }
-            Behavior::Law(laws) => laws.get(lane.particle.injection).or(laws.first()),
+            Behavior::Law(_) | Behavior::Removal(..) => law_of(behavior, lane.particle.injection),
         };
         let Some(law) = law else { return stay(Event::Trap) };
         let Particle { diameter, density, .. } = lane.particle;
-        // no law scatters yet: no draws are spent
+        let draws = || {
+            let event = u32::try_from(lane.impacts).unwrap_or(u32::MAX);
+            Stream::new(self.settings.seed, lane.particle.number, Purpose::Wall, event).uniforms()
+        };
         let impact = Impact {
             diameter,
             density: Some(density),
@@ -101,7 +109,7 @@ impl<D: Domain> Tracker<'_, D> {
             spin,
             normal: n,
             wall_velocity: hit.wall_velocity,
-            draws: [0.5; 4],
+            draws: if law.scatter().is_some() { draws() } else { [0.5; 4] },
         };
         let Ok(out) = law.impact(&impact) else { return stay(at_rest(law, &impact)) };
         After {
@@ -132,6 +140,13 @@ impl<D: Domain> Tracker<'_, D> {
         let press = -(n[0] * a[0][0] + n[1] * a[1][0] + n[2] * a[2][0]);
         if up <= 0.0 { press >= 0.0 } else { up * up < limit * press }
     }
+}
+
+/// The law of a wall for the spheres of an injection.
+#[inline(always)]
+pub(super) fn law_of(behavior: &Behavior, injection: usize) -> Option<&WallLaw> {
+    let laws = behavior.laws()?;
+    laws.get(injection).or(laws.first())
 }
 
 /// What becomes of a sphere that touches a wall at rest, pressed against it: held if the law captures at the slowest
@@ -199,6 +214,7 @@ impl Event {
             Self::Settle => Some(Fate::Settled),
             Self::Trap => Some(Fate::Trapped),
             Self::Escape => Some(Fate::Escaped),
+            Self::Remove(_) => Some(Fate::Removed),
         }
     }
 }

@@ -40,12 +40,19 @@ fn plane(name: &str, point: Vec3, normal: Vec3) -> Wall {
     }
 }
 
+fn law(text: &str) -> carom::WallLaw {
+    carom::spec::parse_law(text).unwrap().compile(&carom::material::Library::builtin()).unwrap()
+}
+
 fn bounce(restitution: f64) -> Behavior {
-    let law = format!(
-        "normal = \"constant\"\nrestitution = {restitution}\ntangential = \"constant\"\ntangential_restitution = 1.0\n"
-    );
-    let law = carom::spec::parse_law(&law).unwrap();
-    Behavior::Law(vec![law.compile(&carom::material::Library::builtin()).unwrap()])
+    rough_bounce(restitution, 0.0)
+}
+
+/// On facets of the given deviation, degrees.
+fn rough_bounce(restitution: f64, angle: f64) -> Behavior {
+    Behavior::Law(vec![law(&format!(
+        "normal = \"constant\"\nrestitution = {restitution}\ntangential_restitution = 1.0\nroughness_angle = \"{angle} deg\"\n"
+    ))])
 }
 
 fn dynamics(drag: Drag) -> Dynamics {
@@ -399,3 +406,5 @@ fn a_moving_wall_is_a_resting_one_seen_from_it() {
 }
 
 mod any_walls;
+mod removal;
+mod scatter;

@@ -42,6 +42,7 @@ proptest! {
         diameter in 5e-6f64..2e-3,
         vacuum in any::<bool>(),
         block in any::<bool>(),
+        angle in prop::sample::select(vec![0.0, 5.0, 25.0]),
     ) {
         let wall = |name: &str, shape| Wall { name: name.into(), shape, contact_at: ContactAt::Surface, velocity: [0.0; 3] };
         let mut walls = vec![wall("room", Shape::Room(Room { min: [-0.02; 3], max: [0.02; 3] }))];
@@ -52,7 +53,7 @@ proptest! {
             let away = Mesh::block([0.004, -0.015, -0.015], [0.009, 0.015, 0.015]).unwrap();
             walls.push(wall("block", Shape::Mesh(away)));
         }
-        let behaviors: Vec<_> = walls.iter().map(|_| bounce(restitution)).collect();
+        let behaviors: Vec<_> = walls.iter().map(|_| rough_bounce(restitution, angle)).collect();
         let domain = Analytic::new(Flow::Uniform { velocity: wind }, walls);
         let mut d = dynamics(if vacuum { Drag::None } else { Drag::SchillerNaumann });
         d.forces.gravity = gravity;
