@@ -152,5 +152,9 @@ pub fn tell(summary: &Summary) -> Result<String, Failure> {
     if !walls.is_empty() {
         text += &Table::new(columns)?.to_text();
     }
+    let doubts: Vec<String> = summary.doubts().map(|(code, count)| format!("{code} {count}")).collect();
+    if !doubts.is_empty() {
+        let _ = writeln!(text, "\nimpacts beyond what their law is good for: {}", doubts.join(", "));
+    }
     Ok(text)
 }

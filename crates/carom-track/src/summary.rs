@@ -3,6 +3,7 @@
 use crate::deposition::{Bins, Deposition};
 use crate::exact_sum::ExactSum;
 use crate::record::{End, Event, Fate, ImpactRecord};
+use carom::validity::CODES;
 use serde::Serialize;
 use serde::ser::SerializeMap;
 
@@ -38,6 +39,8 @@ pub struct WallTally {
     pub rebounds: u64,
     /// Ends at it, by fate in the order of [`Fate::ALL`].
     pub ends: [Amount; 5],
+    /// Impacts whose outcome carried each validity code, in the order of [`CODES`].
+    pub doubts: [u64; CODES.len()],
 }
 
 /// A run, or a part of one. Parts add up to the whole, to the bit, in any order.
@@ -75,6 +78,11 @@ impl Summary {
         self.injected.count - self.fates.iter().map(|f| f.count).sum::<u64>().min(self.injected.count)
     }
 
+    /// The validity codes that impacts carried, and how many did.
+    pub fn doubts(&self) -> impl Iterator<Item = (&'static str, u64)> {
+        counted((0..CODES.len()).map(|i| self.walls.iter().map(|w| w.doubts[i]).sum()))
+    }
+
     pub(crate) fn start(&mut self, mass: f64) {
         self.injected.add(mass);
     }
@@ -83,6 +91,11 @@ impl Summary {
         if let Some(wall) = self.walls.get_mut(impact.wall) {
             wall.impacts += 1;
             wall.rebounds += u64::from(impact.event == Event::Rebound);
+            if !impact.validity.is_empty() {
+                for (count, (_, code, _)) in wall.doubts.iter_mut().zip(CODES) {
+                    *count += u64::from(impact.validity.contains(code));
+                }
+            }
         }
     }
 
@@ -107,6 +120,7 @@ impl Summary {
             for (a, b) in a.ends.iter_mut().zip(&b.ends) {
                 a.merge(b);
             }
+            a.doubts.iter_mut().zip(b.doubts).for_each(|(a, b)| *a += b);
         }
         self.deposition.merge(&other.deposition);
         self.stalled += other.stalled;
@@ -119,11 +133,17 @@ impl Summary {
     }
 }
 
+/// The codes that occurred, with their counts.
+fn counted(counts: impl Iterator<Item = u64>) -> impl Iterator<Item = (&'static str, u64)> {
+    CODES.iter().map(|(code, _, _)| *code).zip(counts).filter(|(_, count)| *count > 0)
+}
+
 struct Report<'a>(&'a Summary);
 struct Fates<'a>(&'a Summary);
 struct Masses<'a>(&'a [Amount; 5]);
 struct Walls<'a>(&'a [WallTally]);
 struct One<'a>(&'a WallTally);
+struct Doubts<'a>(&'a [(&'static str, u64)]);
 
 impl Serialize for Report<'_> {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
@@ -136,6 +156,7 @@ impl Serialize for Report<'_> {
         map.serialize_entry("masses", &Masses(&s.fates))?;
         map.serialize_entry("walls", &Walls(&s.walls))?;
         map.serialize_entry("stalled", &s.stalled)?;
+        map.serialize_entry("validity", &Doubts(&s.doubts().collect::<Vec<_>>()))?;
         map.end()
     }
 }
@@ -163,6 +184,12 @@ impl Serialize for Walls<'_> {
     }
 }
 
+impl Serialize for Doubts<'_> {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().copied())
+    }
+}
+
 impl Serialize for One<'_> {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(None)?;
@@ -173,6 +200,7 @@ impl Serialize for One<'_> {
             map.serialize_entry(fate.name(), &amount.count)?;
             map.serialize_entry(&format!("{}_mass", fate.name()), &amount.mass.value())?;
         }
+        map.serialize_entry("validity", &Doubts(&counted(self.0.doubts.into_iter()).collect::<Vec<_>>()))?;
         map.end()
     }
 }

@@ -47,7 +47,7 @@ pub(super) struct State {
 }
 
 /// The form of checkpoints.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 
 impl State {
     pub fn new(case: &Case, shard: Option<Shard>, blocks: Range<u64>) -> Self {

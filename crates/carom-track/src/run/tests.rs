@@ -373,3 +373,5 @@ fn a_box_from_stl_is_the_box() {
         Case::from_toml(&text("stl = { file = \"bix.stl\" }"), &folder.path().join("case.toml"), &Library::builtin());
     assert!(lost.unwrap_err().to_string().contains("bix.stl"));
 }
+
+mod results;

@@ -10,7 +10,7 @@ use crate::geometry::evaluate;
 use crate::random::{Purpose, Stream};
 use crate::record::{Event, Fate, ImpactRecord, Sink};
 use crate::vector::{Vec3, add, cross, dot, norm, scale, sub};
-use carom::{Energy, Fate as LawFate, Impact, WallLaw};
+use carom::{Energy, Fate as LawFate, Impact, Validity, WallLaw};
 
 /// Impacts in a row without any time between them after which a sphere is wedged between walls and stays.
 const WEDGED: u32 = 64;
@@ -23,6 +23,7 @@ struct After {
     restitution: f64,
     impulse_ratio: f64,
     energy: Energy,
+    validity: Validity,
     /// A bounce of a wall law, which may be the last.
     bounces: bool,
 }
@@ -74,6 +75,7 @@ impl<D: Domain> Tracker<'_, D> {
             restitution: 0.0,
             impulse_ratio: f64::NAN,
             energy: Energy::default(),
+            validity: Validity::NONE,
             bounces: false,
         };
         let Some(behavior) = self.behaviors.get(hit.wall) else { return stay(Event::Trap) };
@@ -112,6 +114,7 @@ impl<D: Domain> Tracker<'_, D> {
             restitution: out.restitution,
             impulse_ratio: out.impulse_ratio,
             energy: out.energy,
+            validity: out.validity,
         }
     }
 
@@ -187,6 +190,7 @@ fn record(lane: &Lane, hit: &Hit, v: Vec3, spin: Vec3, after: &After) -> ImpactR
         tangential_speed_out: norm(along_out),
         spin_out: roll(after.spin),
         energy: after.energy,
+        validity: after.validity,
     }
 }
 
