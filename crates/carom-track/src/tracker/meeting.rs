@@ -14,6 +14,8 @@ use carom::{Energy, Fate as LawFate, Impact, Validity, WallLaw};
 
 /// Impacts in a row without any time between them after which a sphere is wedged between walls and stays.
 const WEDGED: u32 = 64;
+/// Time that is none, over the time since the start: some 50 units in its last place.
+const NO_TIME: f64 = 1e-14;
 
 /// What an impact leaves.
 struct After {
@@ -44,7 +46,7 @@ impl<D: Domain> Tracker<'_, D> {
         lane.time += theta * h;
         lane.step = if theta > 0.1 { h } else { h * (4.0 * theta).max(1e-3) };
         lane.fitted = false;
-        lane.standing = if theta > 0.0 { 0 } else { lane.standing + 1 };
+        lane.standing = if theta * h > NO_TIME * lane.time { 0 } else { lane.standing + 1 };
         lane.impacts += 1;
         if lane.trace {
             sink.point(lane.particle.number, lane.time, hit.meeting.position, v, spin);
