@@ -26,6 +26,56 @@ fn every_doubt_about_an_impact_is_in_its_row_and_counted() {
     assert_eq!(json["walls"]["ceiling"]["validity"], serde_json::json!({}));
 }
 
+#[test]
+fn resuming_with_another_material_wall_or_flow_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let text = r#"
+        [flow]
+        kind = "table"
+        file = "flow.csv"
+        [[wall]]
+        name = "box"
+        stl = { file = "box.stl", unit = "1 mm" }
+        law = "wall"
+        [law.wall]
+        normal = "ea"
+        surface = "mine"
+        friction = 0.2
+        [[injection]]
+        material = "copper"
+        diameter = "200 um"
+        position = ["10 mm", "10 mm", "10 mm"]
+        velocity = ["2 m/s", "1 m/s", "-3 m/s"]
+        [run]
+        until = "1 ms"
+        "#;
+    let go = |changed: &str, resume| {
+        let is = |what: &str| changed == what;
+        fs::write(at("flow.csv"), if is("flow") { "x,u\n0,1\n1,3\n" } else { "x,u\n0,1\n1,2\n" }).unwrap();
+        fs::write(at("box.stl"), stl_box(if is("wall") { [50.0, 20.0, 31.0] } else { [50.0, 20.0, 30.0] })).unwrap();
+        let mut library = Library::builtin();
+        let gamma = if is("material") { 0.4 } else { 0.3 };
+        let mine = |name: &str, gamma: f64| {
+            format!(
+                "[material.{name}]\ndensity = 2500\nyoung_modulus = \"70 GPa\"\npoisson_ratio = 0.2\nsurface_energy = {gamma}\n"
+            )
+        };
+        library.extend_from_toml(&mine("mine", gamma)).unwrap();
+        // nothing here is made of it
+        library.extend_from_toml(&mine("other", if is("other") { 0.1 } else { 0.2 })).unwrap();
+        let case = Case::from_toml(text, &at("case.toml"), &library).unwrap();
+        run(&case, &RunOptions { resume, ..options(&at("out"), 1) }, &Silent)
+    };
+    go("nothing", false).unwrap();
+    for changed in ["flow", "wall", "material"] {
+        let error = go(changed, true).unwrap_err().to_string();
+        assert!(error.contains("the case, its materials or a file it names was changed"), "{changed}: {error}");
+    }
+    go("nothing", true).unwrap();
+    go("other", true).unwrap();
+}
+
 /// A name and values.
 type Array = (String, Vec<[u8; 8]>);
 
