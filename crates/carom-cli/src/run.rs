@@ -64,6 +64,9 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let text = output::read(&args.case)?;
     let name = args.case.display().to_string();
     let case = Case::from_toml(&text, &args.case, &library).map_err(|e| Failure::in_file(e, &name, &text))?;
+    for note in &case.notes {
+        say(&format!("note: {note}"));
+    }
     let options = RunOptions { threads: args.threads, out: args.out.clone(), resume: args.resume, shard: args.shard };
     let bar = Bar::new();
     let summary = carom_track::run(&case, &options, &bar);

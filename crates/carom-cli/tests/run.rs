@@ -194,3 +194,15 @@ fn doubts_about_impacts_are_told_and_reported() {
     let html = text(&folder.path().join("out/report.html"));
     assert!(html.contains("roughness-extrapolated</td>") && html.contains("Doubts: "));
 }
+
+#[test]
+fn a_case_without_gravity_is_told_so_once() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (gravity, note) in [("", "note: no gravity: [forces] gives none\n"), ("gravity = [0, 0, 0]\n", "")] {
+        let case = text(Path::new(CASE)).replace("gravity = [\"0 m/s2\", \"-9.81 m/s2\", \"0 m/s2\"]\n", gravity);
+        std::fs::write(folder.path().join("case.toml"), case).expect("a file");
+        let out = carom(folder.path(), "run case.toml");
+        assert!(out.status.success());
+        assert_eq!(String::from_utf8_lossy(&out.stderr), note);
+    }
+}

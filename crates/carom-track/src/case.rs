@@ -55,6 +55,8 @@ pub struct Case {
     pub vtk: bool,
     /// How deposits are sorted.
     pub bins: Bins,
+    /// What the case leaves unsaid that one might take for granted.
+    pub notes: Vec<String>,
     /// Its text.
     pub text: String,
     /// A number that tells this case from others, for resuming: of its text, of the files it names, and of its materials.
@@ -103,6 +105,7 @@ impl Case {
         sampled_starts(&walls, &injections, &behaviors)?;
         let output = read.output;
         let bins = bins(&output)?;
+        let weightless = read.forces.gravity.is_none().then(|| "no gravity: [forces] gives none".to_owned());
         // materials come from a library that may change: what was made of them tells
         let fingerprint = files.fingerprint().with_value(&behaviors).with_value(&injections).number();
         Ok(Self {
@@ -118,6 +121,7 @@ impl Case {
             fates: output.fates.unwrap_or_default().0,
             vtk: output.vtk.unwrap_or(true),
             bins,
+            notes: weightless.into_iter().collect(),
             text: text.to_owned(),
             fingerprint,
         })
