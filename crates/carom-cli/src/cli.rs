@@ -1,7 +1,7 @@
 //! The command line as a whole.
 
 use crate::failure::Failure;
-use crate::{capture, impact, materials, merge, run, sweep, validate};
+use crate::{capture, fit, impact, materials, merge, run, sweep, validate};
 use clap::{Parser, Subcommand};
 
 const EXAMPLES: &str = "\
@@ -10,6 +10,7 @@ Examples:
   carom sweep --sphere copper --surface aluminium --diameter 90um --over speed=0.01..30 --plot e.svg
   carom capture --sphere copper --surface aluminium --over diameter=1um..1mm
   carom materials copper
+  carom fit points.csv --sphere copper --surface glass --diameter 90um --free roughness_factor
   carom run examples/wind-tunnel.toml --out out/
   carom validate --out report/
 
@@ -32,6 +33,7 @@ enum Command {
     Materials(materials::Args),
     Run(run::Args),
     Merge(merge::Args),
+    Fit(Box<fit::Args>),
     Validate(validate::Args),
 }
 
@@ -45,6 +47,7 @@ impl Cli {
             Command::Materials(args) => materials::run(args),
             Command::Run(args) => run::run(args),
             Command::Merge(args) => merge::merge(args),
+            Command::Fit(args) => fit::run(args),
             Command::Validate(args) => validate::run(args),
         }
     }

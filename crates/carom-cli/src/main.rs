@@ -4,6 +4,7 @@ mod capture;
 mod cli;
 mod failure;
 mod figures;
+mod fit;
 mod grid;
 mod history;
 mod impact;

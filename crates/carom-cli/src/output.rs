@@ -70,7 +70,8 @@ impl<'a> Files<'a> {
     }
 }
 
-fn check_folder(path: &Path) -> Result<(), Failure> {
+/// Refuses a path that is a folder, or lies in none.
+pub fn check_folder(path: &Path) -> Result<(), Failure> {
     if path.is_dir() {
         return Err(Failure::input(format!("{}: a folder; name a file", path.display())));
     }

@@ -9,6 +9,7 @@
 pub mod compare;
 pub mod error;
 pub mod experiment;
+pub mod fit;
 pub mod identities;
 mod library;
 pub mod plots;
