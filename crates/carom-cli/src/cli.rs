@@ -1,7 +1,7 @@
 //! The command line as a whole.
 
 use crate::failure::Failure;
-use crate::{capture, fit, impact, materials, merge, run, sweep, validate};
+use crate::{capture, export, fit, impact, materials, merge, run, sweep, validate};
 use clap::{Parser, Subcommand};
 
 const EXAMPLES: &str = "\
@@ -13,6 +13,7 @@ Examples:
   carom fit points.csv --sphere copper --surface glass --diameter 90um --free roughness_factor
   carom run examples/wind-tunnel.toml --out out/
   carom validate --out report/
+  carom export --format openfoam --wall-law walls.toml:glass --diameter 10um..100um --speed 0.1..30
 
 Quantities take a unit (90um, 2m/s, 190GPa) or are SI numbers. `carom SUBCOMMAND --help` says more.
 Exit codes: 0 done, 2 the input is wrong, 1 anything else.";
@@ -35,6 +36,7 @@ enum Command {
     Merge(merge::Args),
     Fit(Box<fit::Args>),
     Validate(validate::Args),
+    Export(Box<export::Args>),
 }
 
 impl Cli {
@@ -49,6 +51,7 @@ impl Cli {
             Command::Merge(args) => merge::merge(args),
             Command::Fit(args) => fit::run(args),
             Command::Validate(args) => validate::run(args),
+            Command::Export(args) => export::run(args),
         }
     }
 }

@@ -2,6 +2,7 @@
 
 mod capture;
 mod cli;
+mod export;
 mod failure;
 mod figures;
 mod fit;

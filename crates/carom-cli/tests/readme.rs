@@ -1,4 +1,5 @@
-//! README and docs/fit.md tell the truth: their examples run from the root as written, and their pictures are what their commands draw.
+//! README, docs/fit.md and docs/export.md tell the truth: their examples run from the root as written, and their pictures are what their
+//! commands draw.
 //!
 //! A program of its own, since it works in the root folder.
 
@@ -10,7 +11,7 @@ const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
 #[test]
 fn examples_are_real_and_pictures_are_drawn_by_their_commands() {
     std::env::set_current_dir(ROOT).expect("the root");
-    let pages = [("README.md", 1), ("docs/fit.md", 3)];
+    let pages = [("README.md", 1), ("docs/fit.md", 3), ("docs/export.md", 0)];
     let cases = trycmd::TestCases::new();
     for (page, _) in pages {
         cases.case(page);

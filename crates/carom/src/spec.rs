@@ -22,6 +22,7 @@
 mod check;
 mod compile;
 mod curve;
+mod named;
 mod normal;
 mod roughness;
 mod tangential;
@@ -29,15 +30,15 @@ mod values;
 mod write;
 
 pub use curve::CurveSpec;
+pub use named::{parse_named_law, parse_only_law};
 pub use normal::{NormalKind, NormalSpec};
 pub use values::{At, CurvatureRadius};
 
-use crate::error::{SpecError, did_you_mean};
+use crate::error::SpecError;
 use crate::material::MaterialRef;
 use crate::resolved::AdhesionMode;
 use crate::roughness::RoughnessModel;
 use crate::units::{InverseSpeed, Length, Number, Pressure, Speed, SurfaceEnergy};
-use std::collections::BTreeMap;
 
 /// A wall law as written. Everything but `normal` may be absent; what a law needs and lacks is reported by [`LawSpec::compile`].
 #[derive(Clone, Debug, Default, PartialEq, serde::Deserialize, serde::Serialize)]
@@ -151,69 +152,6 @@ values::names! {
 /// What is wrong, with its place in `text`.
 pub fn parse_law(text: &str) -> Result<LawSpec, SpecError> {
     toml::from_str(text).map_err(SpecError::from)
-}
-
-#[derive(serde::Deserialize)]
-struct File {
-    #[serde(default)]
-    law: BTreeMap<String, LawSpec>,
-}
-
-/// The laws of a text, none of them read yet.
-#[derive(serde::Deserialize)]
-struct Names {
-    #[serde(default)]
-    law: BTreeMap<String, toml::Spanned<toml::Value>>,
-}
-
-/// Reads the law `name` from a text with `[law.NAME]` tables (a law file or a whole case file; other tables are left alone).
-///
-/// # Errors
-/// A text that cannot be read, a bad law, an unknown name (with the nearest known one).
-///
-/// ```
-/// let text = "[law.glass]\nnormal = \"constant\"\nrestitution = 0.9\nfriction = 0.1\n";
-/// assert!(carom::spec::parse_named_law(text, "glass").is_ok());
-/// assert!(carom::spec::parse_named_law(text, "glas").unwrap_err().to_string().contains("did you mean glass?"));
-/// ```
-pub fn parse_named_law(text: &str, name: &str) -> Result<LawSpec, SpecError> {
-    let found: Names = toml::from_str(text)?;
-    if !found.law.contains_key(name) {
-        let names: Vec<&str> = found.law.keys().map(String::as_str).collect();
-        let near = did_you_mean(name, names.iter().copied()).unwrap_or_default();
-        let known = if names.is_empty() {
-            "the text has no [law.NAME] table".to_owned()
-        } else {
-            format!("known are {}", names.join(", "))
-        };
-        return Err(SpecError::new(format!("no law '{name}'")).help(format!("{near} {known}").trim().to_owned()));
-    }
-    let mut file: File = toml::from_str(text)?;
-    file.law.remove(name).ok_or_else(|| SpecError::new(format!("no law '{name}'")))
-}
-
-/// Reads the one law of a text: its only `[law.NAME]` table or, in a text without such tables, the keys of a law without a header.
-///
-/// # Errors
-/// A text that cannot be read, a bad law, more than one law.
-///
-/// ```
-/// use carom::spec::{parse_law, parse_only_law};
-/// let keys = "normal = \"constant\"\nrestitution = 0.9\nfriction = 0.1\n";
-/// assert!(parse_only_law(keys).is_ok() && parse_only_law(&format!("[law.glass]\n{keys}")).is_ok());
-/// assert!(parse_only_law(&format!("[law.a]\n{keys}[law.b]\n{keys}")).unwrap_err().to_string().contains("a, b"));
-/// ```
-pub fn parse_only_law(text: &str) -> Result<LawSpec, SpecError> {
-    let found: Names = toml::from_str(text)?;
-    let names: Vec<&String> = found.law.keys().collect();
-    match names.as_slice() {
-        [] => parse_law(text),
-        [name] => parse_named_law(text, name),
-        several => {
-            let known = several.iter().map(|n| n.as_str()).collect::<Vec<_>>().join(", ");
-            Err(SpecError::new("the text holds more than one law").help(format!("name one of {known}")))
-        }
-    }
 }
 
 #[cfg(test)]

@@ -68,7 +68,7 @@ fn mistakes_are_refused_where_they_stand() {
 fn what_a_pair_lacks_is_named() {
     for (text, place, parts) in [
         ("sphere = \"coper\"\nsurface = \"aluminium\"\nnormal = \"ea\"\n", ":1:10", &["did you mean copper?"][..]),
-        ("sphere = { rho = 8000, E = \"190 GPa\", nu = 0.5 }\n", ":1:10", &["poisson_ratio = 0.5"]),
+        ("sphere = { rho = 8000, E = \"190 GPa\", nu = 0.5 }\n", ":1:44", &["poisson_ratio = 0.5"]),
         (
             "sphere = \"E=190GPa,nu=0.27\"\nsurface = \"silicon\"\nnormal = \"ea\"\nfriction = 0\n",
             ":3:10",
@@ -174,6 +174,11 @@ fn laws_are_found_by_name_among_other_tables() {
     assert!(parse_named_law(text, "glass").is_ok());
     let broken = text.replace("restitution = 0.9", "restitution = 1 nm");
     assert!(parse_named_law(&broken, "glass").is_err_and(|e| e.line_column(&broken).map(|p| p.0) == Some(6)));
+    let other = text.replace("[[wall]]", "[law.other]\nfrictoin = \"1 kg\"\n[law.none]\n[[wall]]");
+    assert_eq!(parse_named_law(&other, "glass").map(|l| l.restitution.is_some()), Ok(true), "another law is broken");
+    let e = parse_named_law(&other, "other").expect_err("a misspelt key");
+    assert!(e.line_column(&other).map(|p| p.0) == Some(9) && e.to_string().contains("did you mean friction?"), "{e}");
+    assert!(parse_named_law(&text.replace("law.glass", "law"), "friction").is_err_and(|e| e.span.is_some()));
     assert!(parse_named_law("x = 1\n", "glass").is_err_and(|e| e.to_string().contains("no [law.NAME] table")));
 }
 
