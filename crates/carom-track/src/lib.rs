@@ -18,6 +18,7 @@ pub mod injection;
 pub mod integrate;
 pub mod random;
 pub mod record;
+mod rows;
 pub mod run;
 pub mod summary;
 pub mod tables;

@@ -112,6 +112,8 @@ pub struct ImpactRecord {
     pub spin_out: f64,
     /// Where the incident energy went, as fractions; all zero where no law decides.
     pub energy: carom::Energy,
+    /// What to mind about the law's answer.
+    pub validity: carom::Validity,
 }
 
 /// How a particle ended.

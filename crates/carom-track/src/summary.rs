@@ -4,6 +4,7 @@ use crate::deposition::{Bins, Deposition};
 use crate::exact_sum::ExactSum;
 use crate::record::{End, Event, Fate, ImpactRecord};
 use carom::removal::Mode;
+use carom::validity::CODES;
 use serde::Serialize;
 use serde::ser::SerializeMap;
 
@@ -41,6 +42,8 @@ pub struct WallTally {
     pub ends: [Amount; 6],
     /// How many the flow took off it again by rolling, sliding and lifting.
     pub removed: [u64; 3],
+    /// Impacts whose outcome carried each validity code, in the order of [`CODES`].
+    pub doubts: [u64; CODES.len()],
 }
 
 /// A run, or a part of one. Parts add up to the whole, to the bit, in any order.
@@ -78,6 +81,11 @@ impl Summary {
         self.injected.count - self.fates.iter().map(|f| f.count).sum::<u64>().min(self.injected.count)
     }
 
+    /// The validity codes that impacts carried, and how many did.
+    pub fn doubts(&self) -> impl Iterator<Item = (&'static str, u64)> {
+        counted((0..CODES.len()).map(|i| self.walls.iter().map(|w| w.doubts[i]).sum()))
+    }
+
     pub(crate) fn start(&mut self, mass: f64) {
         self.injected.add(mass);
     }
@@ -88,6 +96,11 @@ impl Summary {
             wall.rebounds += u64::from(impact.event == Event::Rebound);
             if let Event::Remove(mode) = impact.event {
                 wall.removed[mode as usize] += 1;
+            }
+            if !impact.validity.is_empty() {
+                for (count, (_, code, _)) in wall.doubts.iter_mut().zip(CODES) {
+                    *count += u64::from(impact.validity.contains(code));
+                }
             }
         }
     }
@@ -114,6 +127,7 @@ impl Summary {
             for (a, b) in a.ends.iter_mut().zip(&b.ends) {
                 a.merge(b);
             }
+            a.doubts.iter_mut().zip(b.doubts).for_each(|(a, b)| *a += b);
         }
         self.deposition.merge(&other.deposition);
         self.stalled += other.stalled;
@@ -126,12 +140,18 @@ impl Summary {
     }
 }
 
+/// The codes that occurred, with their counts.
+fn counted(counts: impl Iterator<Item = u64>) -> impl Iterator<Item = (&'static str, u64)> {
+    CODES.iter().map(|(code, _, _)| *code).zip(counts).filter(|(_, count)| *count > 0)
+}
+
 struct Report<'a>(&'a Summary);
 struct Fates<'a>(&'a Summary);
 struct Masses<'a>(&'a [Amount; 6]);
 struct Walls<'a>(&'a [WallTally]);
 struct One<'a>(&'a WallTally);
 struct Modes([u64; 3]);
+struct Doubts<'a>(&'a [(&'static str, u64)]);
 
 impl Serialize for Report<'_> {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
@@ -144,6 +164,7 @@ impl Serialize for Report<'_> {
         map.serialize_entry("masses", &Masses(&s.fates))?;
         map.serialize_entry("walls", &Walls(&s.walls))?;
         map.serialize_entry("stalled", &s.stalled)?;
+        map.serialize_entry("validity", &Doubts(&s.doubts().collect::<Vec<_>>()))?;
         map.end()
     }
 }
@@ -171,6 +192,12 @@ impl Serialize for Walls<'_> {
     }
 }
 
+impl Serialize for Doubts<'_> {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().copied())
+    }
+}
+
 impl Serialize for One<'_> {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(None)?;
@@ -182,6 +209,7 @@ impl Serialize for One<'_> {
             map.serialize_entry(&format!("{}_mass", fate.name()), &amount.mass.value())?;
         }
         map.serialize_entry("removed_by", &Modes(self.0.removed))?;
+        map.serialize_entry("validity", &Doubts(&counted(self.0.doubts.into_iter()).collect::<Vec<_>>()))?;
         map.end()
     }
 }

@@ -10,10 +10,12 @@ use crate::geometry::evaluate;
 use crate::random::{Purpose, Stream};
 use crate::record::{Event, Fate, ImpactRecord, Sink};
 use crate::vector::{Vec3, add, cross, dot, norm, scale, sub};
-use carom::{Energy, Fate as LawFate, Impact, WallLaw};
+use carom::{Energy, Fate as LawFate, Impact, Validity, WallLaw};
 
 /// Impacts in a row without any time between them after which a sphere is wedged between walls and stays.
 const WEDGED: u32 = 64;
+/// Time that is none, over the time since the start: some 50 units in its last place.
+const NO_TIME: f64 = 1e-14;
 
 /// What an impact leaves.
 struct After {
@@ -23,6 +25,7 @@ struct After {
     restitution: f64,
     impulse_ratio: f64,
     energy: Energy,
+    validity: Validity,
     /// A bounce of a wall law, which may be the last.
     bounces: bool,
 }
@@ -43,7 +46,7 @@ impl<D: Domain> Tracker<'_, D> {
         lane.time += theta * h;
         lane.step = if theta > 0.1 { h } else { h * (4.0 * theta).max(1e-3) };
         lane.fitted = false;
-        lane.standing = if theta > 0.0 { 0 } else { lane.standing + 1 };
+        lane.standing = if theta * h > NO_TIME * lane.time { 0 } else { lane.standing + 1 };
         lane.impacts += 1;
         if lane.trace {
             sink.point(lane.particle.number, lane.time, hit.meeting.position, v, spin);
@@ -79,6 +82,7 @@ impl<D: Domain> Tracker<'_, D> {
             restitution: 0.0,
             impulse_ratio: f64::NAN,
             energy: Energy::default(),
+            validity: Validity::NONE,
             bounces: false,
         };
         let Some(behavior) = self.behaviors.get(hit.wall) else { return stay(Event::Trap) };
@@ -120,6 +124,7 @@ impl<D: Domain> Tracker<'_, D> {
             restitution: out.restitution,
             impulse_ratio: out.impulse_ratio,
             energy: out.energy,
+            validity: out.validity,
         }
     }
 
@@ -202,6 +207,7 @@ fn record(lane: &Lane, hit: &Hit, v: Vec3, spin: Vec3, after: &After) -> ImpactR
         tangential_speed_out: norm(along_out),
         spin_out: roll(after.spin),
         energy: after.energy,
+        validity: after.validity,
     }
 }
 
