@@ -4,7 +4,7 @@ mod by;
 mod over;
 
 pub use by::By;
-pub use over::{Over, Swept};
+pub use over::{Over, Swept, with_unit};
 
 use crate::failure::Failure;
 use crate::motion::ImpactArgs;

@@ -176,19 +176,39 @@ impl LawArgs {
 
     /// Compiles the law. Where nothing is `oblique`, friction does nothing and need not be given.
     pub fn compile(&self, oblique: bool) -> Result<Law, Failure> {
-        let library = self.materials.library()?;
+        self.compile_with(oblique, &self.materials.library()?, |_| ())
+    }
+
+    /// As [`LawArgs::compile`], with what `complete` adds to the law before.
+    pub fn compile_with(
+        &self,
+        oblique: bool,
+        library: &Library,
+        complete: impl FnOnce(&mut LawSpec),
+    ) -> Result<Law, Failure> {
         let (mut spec, source) = self.spec()?;
+        complete(&mut spec);
         for (flag, given) in [("--sphere", &self.sphere), ("--surface", &self.surface)] {
             if let Some(material) = given {
-                material.resolve(&library).map_err(|e| Failure::input(format!("{flag}: {e}")))?;
+                material.resolve(library).map_err(|e| Failure::input(format!("{flag}: {e}")))?;
             }
         }
         let has_friction = spec.friction.is_some();
         if !oblique && !has_friction {
             spec.friction = Some(Number(0.0).into());
         }
-        let wall = spec.compile(&library).map_err(|e| self.explain(e, source.as_ref()))?;
+        let wall = spec.compile(library).map_err(|e| self.explain(e, source.as_ref()))?;
         Ok(Law { wall, spec, has_friction })
+    }
+
+    /// Name of the law in its file, if it comes from one.
+    pub fn name(&self) -> Option<&str> {
+        self.wall_law.as_ref().map(|(_, name)| name.as_str())
+    }
+
+    /// Is any law given, by flags or a file?
+    pub fn is_given(&self) -> bool {
+        self.wall_law.is_some() || self.sphere.is_some() || self.surface.is_some() || self.law.is_some()
     }
 
     /// An error in the words of whoever made it: at its place in the file, or with flags for keys.

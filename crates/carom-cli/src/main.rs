@@ -2,8 +2,10 @@
 
 mod capture;
 mod cli;
+mod export;
 mod failure;
 mod figures;
+mod fit;
 mod grid;
 mod history;
 mod impact;

@@ -13,6 +13,7 @@
 
 mod error;
 mod file;
+pub use file::write_text;
 pub mod html;
 mod number;
 pub use number::significant;

@@ -40,6 +40,8 @@ pub enum Purpose {
     Eddy = 2,
     /// A Brownian kick; the event counts the particle's steps.
     Brownian = 3,
+    /// Resampled data of a fit; the particle is the resample's number.
+    Resampling = 4,
 }
 
 /// The draws of one event of one particle.

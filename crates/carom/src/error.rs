@@ -56,6 +56,17 @@ impl SpecError {
             None => format!("{name}: {self}"),
         }
     }
+
+    /// As [`Self::located`], with the line itself below and a mark under the place, in plain text.
+    pub fn shown(&self, name: &str, text: &str) -> String {
+        let located = self.located(name, text);
+        let (Some((row, column)), Some(span)) = (self.line_column(text), &self.span) else { return located };
+        let line = text.lines().nth(row - 1).unwrap_or_default();
+        let length = text.get(span.clone()).and_then(|s| s.lines().next()).map_or(1, |s| s.chars().count().max(1));
+        // tabs stay, so that the mark stands under its place however wide they are
+        let blank: String = line.chars().take(column - 1).map(|c| if c == '\t' { c } else { ' ' }).collect();
+        format!("{located}\n  {row} | {line}\n  {:1$} | {blank}{2}", "", row.to_string().len(), "^".repeat(length))
+    }
 }
 
 impl From<toml::de::Error> for SpecError {
@@ -108,5 +119,16 @@ mod tests {
     fn place_is_line_and_column() {
         let e = SpecError::new("bad").at(Some(6..9)).help("be good");
         assert_eq!(e.located("law.toml", "a = 1\nb = x\n"), "law.toml:2:1: bad; be good");
+    }
+
+    #[test]
+    fn the_line_is_shown_with_its_place() {
+        let text = "a = 1\n\tµ = xyz\n";
+        let e = SpecError::new("bad").at(Some(12..15));
+        assert_eq!(e.shown("law.toml", text), "law.toml:2:6: bad\n  2 | \tµ = xyz\n    | \t    ^^^");
+        assert_eq!(SpecError::new("bad").shown("law.toml", text), "law.toml: bad");
+        // a whole table is marked on its first line only, and a place at the end of the text has no line
+        assert!(SpecError::new("bad").at(Some(0..15)).shown("t", text).ends_with("  1 | a = 1\n    | ^^^^^"));
+        assert!(SpecError::new("bad").at(Some(16..16)).shown("t", text).ends_with("  3 | \n    | ^"));
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! One type per dimension, each a wrapped `f64` in SI units. A text is a number followed by a product of units
 //! (`kg/m3`, `Pa s`, `m s-1`, `m/s^2`) with SI prefixes; errors name the character where the text goes wrong and say
-//! what would be right. Every type reads from TOML (string or number) and from a command line (`FromStr`).
+//! what would be right. Every type reads from TOML (string or number) and from a command line (`FromStr`), and is written as a bare SI number.
 
 mod parse;
 
@@ -29,6 +29,12 @@ macro_rules! quantities {
             type Err = UnitError;
             fn from_str(text: &str) -> Result<Self, UnitError> {
                 parse::parse(text, &parse::Wanted { what: $what, dimension: $dim, si: $si, example: $example }).map($name)
+            }
+        }
+
+        impl serde::Serialize for $name {
+            fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                serializer.serialize_f64(self.0)
             }
         }
 

@@ -181,11 +181,29 @@ impl WallLaw {
             // SAFETY: the processor has the features the function is compiled for, as was just asked.
             return unsafe { impact_fma(self, impact) };
         }
-        self.impact_body(impact)
+        self.impact_inlined(impact)
     }
 
+    /// As [`WallLaw::impact`], compiled into the caller for the caller's own instruction set: the same bits, and the answer need not pass
+    /// through memory. Fast only where the caller is compiled with fused multiply-add (`#[target_feature(enable = "fma")]`).
+    ///
+    /// # Errors
+    /// As [`WallLaw::impact`].
     #[inline(always)]
-    fn impact_body(&self, impact: &Impact) -> Result<Outcome, ImpactError> {
+    pub fn impact_inlined(&self, impact: &Impact) -> Result<Outcome, ImpactError> {
+        // whoever calls this skips `impact`: what is added to a law must be heeded here too
+        let Self {
+            normal: _,
+            tangential: _,
+            density: _,
+            surface_curvature: _,
+            contact_limit: _,
+            validity: _,
+            pair: _,
+            roughness: _,
+            roughness_factor: _,
+            spacing: _,
+        } = self;
         let square = dot(&impact.normal, &impact.normal);
         let normal = if checks::is_unit(square) { impact.normal } else { checks::unit(&impact.normal, square)? };
         let size = self.size(impact.diameter, impact.density)?;
@@ -254,7 +272,7 @@ impl WallLaw {
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "fma")]
 fn impact_fma(law: &WallLaw, impact: &Impact) -> Result<Outcome, ImpactError> {
-    law.impact_body(impact)
+    law.impact_inlined(impact)
 }
 
 struct Sliding {
