@@ -171,3 +171,12 @@ fn any_bytes_are_answered_not_suffered() {
         }
     });
 }
+
+#[test]
+fn the_random_walk_is_well_mixed_unless_told_otherwise() {
+    let walk = |keys: &str| {
+        let text = GOOD.replace("drag = ", &format!("random_walk = {{ {keys} }}\ndrag = "));
+        read(&text).unwrap().dynamics.random_walk.unwrap()
+    };
+    assert!(walk("").drift && walk("drift = true").drift && !walk("drift = false").drift);
+}

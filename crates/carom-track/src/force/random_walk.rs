@@ -20,10 +20,12 @@
 //! - [`NearWall::WangJames`]: √(2k/3) times f_u, f_v, f_w fitted to direct simulations for y⁺ < 80 (Wang & James 1999, Int. J.
 //!   Multiphase Flow 25, 551–558): f_u = 1 + 0.285 (y⁺ + 6) e^{−0.455 (y⁺+6)^0.53} along the flow, f_v = 1 − e^{−0.02 y⁺} along the
 //!   normal, f_w = √(3 − f_u² − f_v²) across, so that k is kept. Beyond 80 they go on, for they tend to 1.
-//!   With k given, they meet the simulation at δ⁺ = 180 within 3 % (u'), 20 % (v') and 7 % (w').
+//!   With k given, they meet the simulation at δ⁺ = 180 within 3 % (u'), 20 % (v') and 7 % (w'). T_L is at least 10 ν/u_τ²,
+//!   that of the viscous sublayer below: C_L k/ε was made for isotropic fluctuations and falls to 2 there.
 //! - [`NearWall::KallioReeks`]: along the normal the rms and the eddy's life are those of a boundary layer (Kallio & Reeks
 //!   1989, Int. J. Multiphase Flow 15, 433–446, doi:10.1016/0301-9322(89)90012-8), for y⁺ < 200:
-//!   v'⁺ = 0.005 y⁺²/(1 + 0.002923 y⁺^2.128); T⁺ = 10 up to y⁺ = 5, then 7.122 + 0.5731 y⁺ − 0.00129 y⁺².
+//!   v'⁺ = 0.005 y⁺²/(1 + 0.002923 y⁺^2.128); T⁺ = 10 up to y⁺ = 5, then 7.122 + 0.5731 y⁺ − 0.00129 y⁺². They speak of the
+//!   normal alone; along and across it is as above, for isotropic fluctuations around the axis of a pipe fling out too much.
 //!
 //! Both are faded out smoothly between y⁺ = 150 and 200: a jump of S would be a wall to the walk.
 //!
@@ -54,6 +56,8 @@
 //! - Crossing breaks even mixing of spheres with inertia; no theory says what would be right for them.
 //! - On the axis of a pipe of less than 200 wall units of radius S is not isotropic and so has no single value: spheres
 //!   that pass within a step of it are scattered a little too much or too little.
+//! - Where σ_n ~ y², as near a wall, spheres of St > 1/3 thin out as σ_n^{−2St/(1+St)}, which has no integral down to the wall:
+//!   the sublayer keeps them until they touch.
 //! - Where a flow knows no wall, S = √(2k/3) everywhere.
 //!
 //! ```
