@@ -236,6 +236,13 @@ impl<D: Domain> Tracker<'_, D> {
             for l in 0..W {
                 crew.h[l] = if crew.busy[l] { crew.lanes[l].next_step(self.settings.until) } else { 0.0 };
             }
+            if self.drifts() {
+                for l in 0..W {
+                    if crew.busy[l] {
+                        self.lean(&mut crew, l);
+                    }
+                }
+            }
             let forces = Acting { dynamics: self.dynamics, domain: self.domain, bodies: &crew.bodies };
             step(&crew.motion, &crew.rates, &crew.h, control, &forces, &mut crew.step);
             let clear = self.domain.clear(&crew.motion.x, &crew.step.path, &crew.bodies.radius);
@@ -270,8 +277,7 @@ impl<D: Domain> Tracker<'_, D> {
         self.refresh(crew, l);
         crew.lanes[l].step = self.first_step(crew, l);
         if self.has_chance() {
-            self.renew(crew, l);
-            self.refresh(crew, l);
+            self.renew(crew, l, 0.0);
         }
     }
 
@@ -360,9 +366,8 @@ impl<D: Domain> Tracker<'_, D> {
         }
         if last {
             finish(crew, l, Fate::Airborne, None, sink);
-        } else if stopped {
-            self.renew(crew, l);
-            self.refresh(crew, l);
+        } else if self.has_chance() {
+            self.renew(crew, l, h);
         }
     }
 }

@@ -5,8 +5,7 @@ use super::files::Files;
 use super::text::{FlowText, FluidText, ForcesText, Si};
 use crate::dynamics::Dynamics;
 use crate::flow::{Channel, Flow, Fluid, Pipe, Profile, RoundJet, SlotJet, Stagnation, Symmetry, Table};
-use crate::force::random_walk::Life;
-use crate::force::{Drag, Forces, NearWall, RandomWalk, Slip};
+use crate::force::{Drag, Forces, Life, NearWall, RandomWalk, Slip};
 use carom::SpecError;
 use carom::spec::At;
 
@@ -175,6 +174,9 @@ fn random_walk(text: &ForcesText) -> Result<Option<RandomWalk>, SpecError> {
     }
     if let Some(life) = &text.life {
         walk.life = word(life, "eddy life", &LIVES)?;
+    }
+    if let Some(drift) = text.drift {
+        walk.drift = drift;
     }
     if let Some(scale) = &text.time_scale {
         walk.time_scale = super::check::positive(scale, "time_scale", scale.value.0)?;

@@ -196,3 +196,12 @@ fn removal_is_a_wall_option() {
     let error = read(&still).expect_err("a plug has no wall shear").to_string();
     assert!(error.contains("this flow knows none") && error.contains("friction_velocity = "), "{error}");
 }
+
+#[test]
+fn the_random_walk_is_well_mixed_unless_told_otherwise() {
+    let walk = |keys: &str| {
+        let text = GOOD.replace("drag = ", &format!("random_walk = {{ {keys} }}\ndrag = "));
+        read(&text).unwrap().dynamics.random_walk.unwrap()
+    };
+    assert!(walk("").drift && walk("drift = true").drift && !walk("drift = false").drift);
+}

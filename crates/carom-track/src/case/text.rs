@@ -82,6 +82,7 @@ pub(super) struct ForcesText {
 pub(super) struct RandomWalkText {
     pub near_wall: Option<At<String>>,
     pub life: Option<At<String>>,
+    pub drift: Option<bool>,
     pub time_scale: Option<At<Number>>,
 }
 

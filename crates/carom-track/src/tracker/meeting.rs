@@ -54,6 +54,9 @@ impl<D: Domain> Tracker<'_, D> {
         let mut after = self.outcome(crew, l, hit, v, spin);
         put(crew, l, hit.meeting.position, after.velocity, after.spin);
         if after.event == Event::Rebound {
+            if self.has_chance() {
+                self.renew(crew, l, theta * h);
+            }
             self.refresh(crew, l);
             if after.bounces && (crew.lanes[l].standing > WEDGED || self.settles(crew, l, hit, &after)) {
                 after = After { event: Event::Settle, velocity: hit.wall_velocity, spin: [0.0; 3], ..after };
