@@ -163,7 +163,7 @@ typedef struct carom_impact_out {
     double velocity[3];
     // Angular velocity after the impact, rad/s.
     double spin[3];
-    // Restitution e, 0 for a capture.
+    // Restitution e, 0 for a capture; may exceed 1 on a wall that scatters.
     double restitution;
     // Impulse ratio, tangential over normal; NaN for a capture.
     double impulse_ratio;
@@ -262,6 +262,7 @@ carom_status carom_capture_velocity(const struct carom_law *law,
 
 // Many impacts at once, several times as fast as one by one: in columns of `n` numbers, each in its own plane of incidence, spheres of the
 // law's own density, the wall at rest. The same bits as carom_impact, on any machine.
+// A wall that scatters takes every draw at 1/2 here.
 //
 // In: `normal` approach speed (m/s, positive), `tangential` speed (m/s), `spin` (rad/s, positive when it rolls forward along
 // positive tangential speed), `diameter` (m). Out: normal speed away from the wall, tangential speed and spin after the impact,

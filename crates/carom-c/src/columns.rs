@@ -7,6 +7,7 @@ use carom::batch::{BatchError, Incidence, Rebound};
 
 /// Many impacts at once, several times as fast as one by one: in columns of `n` numbers, each in its own plane of incidence, spheres of the
 /// law's own density, the wall at rest. The same bits as carom_impact, on any machine.
+/// A wall that scatters takes every draw at 1/2 here.
 ///
 /// In: `normal` approach speed (m/s, positive), `tangential` speed (m/s), `spin` (rad/s, positive when it rolls forward along
 /// positive tangential speed), `diameter` (m). Out: normal speed away from the wall, tangential speed and spin after the impact,

@@ -93,7 +93,7 @@ pub struct ImpactOut {
     pub velocity: [f64; 3],
     /// Angular velocity after the impact, rad/s.
     pub spin: [f64; 3],
-    /// Restitution e, 0 for a capture.
+    /// Restitution e, 0 for a capture; may exceed 1 on a wall that scatters.
     pub restitution: f64,
     /// Impulse ratio, tangential over normal; NaN for a capture.
     pub impulse_ratio: f64,

@@ -17,9 +17,12 @@ mod output;
 mod removal;
 mod report;
 mod run;
+mod samples;
+mod study;
 mod sweep;
 mod text;
 mod trajectories;
+mod uncertain;
 mod validate;
 mod values;
 

@@ -192,7 +192,7 @@ impl Dynamics {
         let at = |v: &Lanes3<W>| -> Vec3 { [v[0][l], v[1][l], v[2][l]] };
         let mut local = domain.fluid(at(&m.x));
         if let (Some(walk), Some(eddy)) = (&self.random_walk, &bodies.eddy[l]) {
-            let gust = walk.fluctuation(eddy, &local, self.fluid.kinematic_viscosity());
+            let gust = walk.fluctuation(eddy.deviates, &local, self.fluid.kinematic_viscosity());
             local.velocity = add(local.velocity, gust);
         }
         self.forces.rates(&self.fluid, &bodies.sphere[l], &local, at(&m.v), at(&m.spin))

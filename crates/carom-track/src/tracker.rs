@@ -9,6 +9,7 @@ mod chance;
 mod crew;
 mod lane;
 mod meeting;
+mod removal;
 mod wall_jet;
 mod walls;
 
@@ -21,6 +22,7 @@ use crate::record::{End, Fate, Sink};
 use crate::vector::Vec3;
 use crew::{Crew, motion_of};
 use lane::Lane;
+pub use removal::Removal;
 
 /// A particle as it is injected.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -121,12 +123,24 @@ impl Settings {
 pub enum Behavior {
     /// A wall law decides: one for each injection's material, or one for all.
     Law(Vec<carom::WallLaw>),
+    /// Likewise, and the flow takes spheres that would stay off again where it is strong enough.
+    Removal(Vec<carom::WallLaw>, Removal),
     /// It stays, whatever its speed.
     Trap,
     /// It leaves the domain.
     Escape,
     /// It leaves along the wall, as a jet's momentum spreads.
     WallJet,
+}
+
+impl Behavior {
+    /// The wall laws, if laws decide.
+    pub fn laws(&self) -> Option<&[carom::WallLaw]> {
+        match self {
+            Self::Law(laws) | Self::Removal(laws, _) => Some(laws),
+            Self::Trap | Self::Escape | Self::WallJet => None,
+        }
+    }
 }
 
 /// All that stays the same during a run.
@@ -212,6 +226,13 @@ impl<D: Domain> Tracker<'_, D> {
                 return;
             }
             crew.set_steps();
+            if self.drifts() {
+                for l in 0..W {
+                    if crew.busy[l] {
+                        self.lean(&mut crew, l);
+                    }
+                }
+            }
             self.refresh(&mut crew);
             let forces = Acting { dynamics: self.dynamics, domain: self.domain, bodies: &crew.bodies };
             step(&crew.motion, &crew.rates, &crew.h, control, &forces, &mut crew.step);
@@ -246,7 +267,7 @@ impl<D: Domain> Tracker<'_, D> {
         let trace = sink.start(&particle);
         crew.lanes[l] = Lane::new(particle, trace);
         (crew.time[l], crew.stop[l], crew.steps[l]) = (particle.time, self.settings.until, 0);
-        (crew.busy[l], crew.quiet[l]) = (true, mask(!trace));
+        (crew.busy[l], crew.quiet[l]) = (true, mask(!trace && !self.has_chance()));
         if particle.time >= self.settings.until {
             finish(crew, l, Fate::Airborne, None, sink);
             return;
@@ -254,7 +275,7 @@ impl<D: Domain> Tracker<'_, D> {
         self.refresh_one(crew, l);
         crew.next[l] = self.first_step(crew, l);
         if self.has_chance() {
-            self.renew(crew, l);
+            self.renew(crew, l, 0.0);
         }
         // all lanes at once cost little more than one
         crew.stale[l] = true;
@@ -337,7 +358,7 @@ impl<D: Domain> Tracker<'_, D> {
             } else {
                 self.meet(crew, l, hit, *velocity, sink);
             }
-            crew.quiet[l] = mask(crew.lanes[l].is_quiet());
+            crew.quiet[l] = mask(crew.lanes[l].is_quiet() && !self.has_chance());
         } else {
             self.accept(crew, l, factor, sink);
         }
@@ -359,7 +380,7 @@ impl<D: Domain> Tracker<'_, D> {
         }
         let lane = &mut crew.lanes[l];
         (lane.fitted, lane.standing) = (false, 0);
-        crew.quiet[l] = mask(lane.is_quiet());
+        crew.quiet[l] = mask(lane.is_quiet() && !self.has_chance());
         for c in 0..3 {
             crew.motion.x[c][l] = crew.step.end.x[c][l];
             crew.motion.v[c][l] = crew.step.end.v[c][l];
@@ -369,9 +390,8 @@ impl<D: Domain> Tracker<'_, D> {
         }
         if stopped && stop >= self.settings.until {
             finish(crew, l, Fate::Airborne, None, sink);
-        } else if stopped {
-            self.renew(crew, l);
-            crew.stale[l] = true;
+        } else if self.has_chance() {
+            self.renew(crew, l, h);
         }
     }
 }

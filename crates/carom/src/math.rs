@@ -5,6 +5,8 @@
 //! exactly by IEEE 754), have no branches and no tables, and so also vectorise when they stand in a loop.
 //! Relative errors stay below about 2 units in the last place of a double for `ln` (away from its zero, see the tests) and `exp`.
 
+pub mod normal;
+
 /// Natural logarithm of a positive, finite, normal number.
 ///
 /// Outside that domain (zero, negative, subnormal, infinite, NaN) the value is unspecified but the call is safe:

@@ -38,7 +38,7 @@ use crate::error::SpecError;
 use crate::material::MaterialRef;
 use crate::resolved::AdhesionMode;
 use crate::roughness::RoughnessModel;
-use crate::units::{InverseSpeed, Length, Number, Pressure, Speed, SurfaceEnergy};
+use crate::units::{Angle, InverseSpeed, Length, Number, Pressure, Speed, SurfaceEnergy};
 
 /// A wall law as written. Everything but `normal` may be absent; what a law needs and lacks is reported by [`LawSpec::compile`].
 #[derive(Clone, Debug, Default, PartialEq, serde::Deserialize, serde::Serialize)]
@@ -77,6 +77,9 @@ pub struct LawSpec {
     /// Radius β of the asperities, for `fuller-tabor`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub asperity_radius: Option<At<Length>>,
+    /// Δγ, standard deviation of the roughness angle: the wall scatters.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub roughness_angle: Option<At<Angle>>,
     /// C_A.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub adhesion_damping: Option<At<InverseSpeed>>,

@@ -44,7 +44,7 @@ macro_rules! quantities {
                 impl Visitor<'_> for Text {
                     type Value = $name;
                     fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-                        write!(f, "a {} such as \"{}\", or a number in {}", $what, $example, if $si.is_empty() { "no unit" } else { $si })
+                        write!(f, "{} {} such as \"{}\", or a number in {}", parse::article($what), $what, $example, if $si.is_empty() { "no unit" } else { $si })
                     }
                     fn visit_f64<E: de::Error>(self, v: f64) -> Result<$name, E> {
                         if v.is_finite() { Ok($name(v)) } else { Err(E::custom(format!("{v} is not a finite {}", $what))) }

@@ -10,10 +10,12 @@ use crate::geometry::evaluate;
 use crate::random::{Purpose, Stream};
 use crate::record::{Event, Fate, ImpactRecord, Sink};
 use crate::vector::{Vec3, add, cross, dot, norm, scale, sub};
-use carom::{Energy, Fate as LawFate, Impact, WallLaw};
+use carom::{Energy, Fate as LawFate, Impact, Validity, WallLaw};
 
 /// Impacts in a row without any time between them after which a sphere is wedged between walls and stays.
 const WEDGED: u32 = 64;
+/// Time that is none, over the time since the start: some 50 units in its last place.
+const NO_TIME: f64 = 1e-14;
 
 /// What an impact leaves.
 struct After {
@@ -23,6 +25,7 @@ struct After {
     restitution: f64,
     impulse_ratio: f64,
     energy: Energy,
+    validity: Validity,
     /// A bounce of a wall law, which may be the last.
     bounces: bool,
 }
@@ -44,19 +47,26 @@ impl<D: Domain> Tracker<'_, D> {
         crew.next[l] = if theta > 0.1 { h } else { h * (4.0 * theta).max(1e-3) };
         let lane = &mut crew.lanes[l];
         lane.fitted = false;
-        lane.standing = if theta > 0.0 { 0 } else { lane.standing + 1 };
+        lane.standing = if theta * h > NO_TIME * crew.time[l] { 0 } else { lane.standing + 1 };
         lane.impacts += 1;
         if lane.trace {
             sink.point(lane.particle.number, crew.time[l], hit.meeting.position, v, spin);
         }
         let mut after = self.outcome(crew, l, hit, v, spin);
         put(crew, l, hit.meeting.position, after.velocity, after.spin);
-        if after.event == Event::Rebound
-            && after.bounces
-            && (crew.lanes[l].standing > WEDGED || self.settles(crew, l, hit, &after))
+        if after.event == Event::Rebound {
+            if self.has_chance() {
+                self.renew(crew, l, theta * h);
+            }
+            if after.bounces && (crew.lanes[l].standing > WEDGED || self.settles(crew, l, hit, &after)) {
+                after = After { event: Event::Settle, velocity: hit.wall_velocity, spin: [0.0; 3], ..after };
+                put(crew, l, hit.meeting.position, after.velocity, after.spin);
+            }
+        }
+        if matches!(after.event, Event::Capture | Event::Settle)
+            && let Some(mode) = self.removes(crew, l, hit)
         {
-            after = After { event: Event::Settle, velocity: hit.wall_velocity, spin: [0.0; 3], ..after };
-            put(crew, l, hit.meeting.position, after.velocity, after.spin);
+            after.event = Event::Remove(mode);
         }
         sink.impact(&record(&crew.lanes[l], crew.time[l], hit, v, spin, &after));
         if let Some(fate) = after.event.ends() {
@@ -75,6 +85,7 @@ impl<D: Domain> Tracker<'_, D> {
             restitution: 0.0,
             impulse_ratio: f64::NAN,
             energy: Energy::default(),
+            validity: Validity::NONE,
             bounces: false,
         };
         let Some(behavior) = self.behaviors.get(hit.wall) else { return stay(Event::Trap) };
@@ -90,11 +101,14 @@ impl<D: Domain> Tracker<'_, D> {
                 let velocity = add(out, hit.wall_velocity);
                 return After { velocity, spin, restitution: f64::NAN, ..stay(Event::Rebound) };
             }
-            Behavior::Law(laws) => laws.get(lane.particle.injection).or(laws.first()),
+            Behavior::Law(_) | Behavior::Removal(..) => law_of(behavior, lane.particle.injection),
         };
         let Some(law) = law else { return stay(Event::Trap) };
         let Particle { diameter, density, .. } = lane.particle;
-        // no law scatters yet: no draws are spent
+        let draws = || {
+            let event = u32::try_from(lane.impacts).unwrap_or(u32::MAX);
+            Stream::new(self.settings.seed, lane.particle.number, Purpose::Wall, event).uniforms()
+        };
         let impact = Impact {
             diameter,
             density: Some(density),
@@ -102,7 +116,7 @@ impl<D: Domain> Tracker<'_, D> {
             spin,
             normal: n,
             wall_velocity: hit.wall_velocity,
-            draws: [0.5; 4],
+            draws: if law.scatter().is_some() { draws() } else { [0.5; 4] },
         };
         let Ok(out) = law.impact(&impact) else { return stay(at_rest(law, &impact)) };
         After {
@@ -113,6 +127,7 @@ impl<D: Domain> Tracker<'_, D> {
             restitution: out.restitution,
             impulse_ratio: out.impulse_ratio,
             energy: out.energy,
+            validity: out.validity,
         }
     }
 
@@ -132,6 +147,13 @@ impl<D: Domain> Tracker<'_, D> {
         let press = -(n[0] * a[0][0] + n[1] * a[1][0] + n[2] * a[2][0]);
         if up <= 0.0 { press >= 0.0 } else { up * up < limit * press }
     }
+}
+
+/// The law of a wall for the spheres of an injection.
+#[inline(always)]
+pub(super) fn law_of(behavior: &Behavior, injection: usize) -> Option<&WallLaw> {
+    let laws = behavior.laws()?;
+    laws.get(injection).or(laws.first())
 }
 
 /// What becomes of a sphere that touches a wall at rest, pressed against it: held if the law captures at the slowest
@@ -188,6 +210,7 @@ fn record(lane: &Lane, time: f64, hit: &Hit, v: Vec3, spin: Vec3, after: &After)
         tangential_speed_out: norm(along_out),
         spin_out: roll(after.spin),
         energy: after.energy,
+        validity: after.validity,
     }
 }
 
@@ -200,6 +223,7 @@ impl Event {
             Self::Settle => Some(Fate::Settled),
             Self::Trap => Some(Fate::Trapped),
             Self::Escape => Some(Fate::Escaped),
+            Self::Remove(_) => Some(Fate::Removed),
         }
     }
 }

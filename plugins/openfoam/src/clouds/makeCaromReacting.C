@@ -1,0 +1,6 @@
+// Part of carom's OpenFOAM plug-in. GPL-3.0-or-later, see ../../COPYING.
+
+#include "basicReactingCloud.H"
+#include "CaromInteraction.H"
+
+makePatchInteractionModelType(CaromInteraction, basicReactingCloud);

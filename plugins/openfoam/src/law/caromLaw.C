@@ -1,0 +1,129 @@
+// Part of carom's OpenFOAM plug-in. GPL-3.0-or-later, see ../../COPYING.
+
+#include "caromLaw.H"
+#include "error.H"
+#include "IOstreams.H"
+
+#include <fstream>
+#include <sstream>
+
+namespace
+{
+
+//- A file of the case, as the C library wants it
+Foam::string path(Foam::fileName file, const Foam::fileName& caseDir)
+{
+    file.expand();
+    return file.isAbsolute() ? file : caseDir/file;
+}
+
+Foam::string contents(const Foam::dictionary& entry, const Foam::string& file)
+{
+    std::ifstream in(file.c_str());
+    std::ostringstream text;
+    if (!in || !(text << in.rdbuf()))
+    {
+        FatalIOErrorInFunction(entry)
+            << "Cannot read materials " << file << Foam::nl << Foam::exit(Foam::FatalIOError);
+    }
+    return text.str();
+}
+
+//- Whether the law scatters: those that do refuse draws outside [0, 1), the others do not look at them
+bool scatters(const carom_law* law)
+{
+    carom_impact_in in = Foam::caromLaw::input();
+    in.diameter = 1e-4;
+    in.density = 1000;
+    in.velocity[0] = 1;
+    in.velocity[1] = -1;
+    in.normal[1] = 1;
+    in.draws[0] = -1;
+
+    carom_impact_out out;
+    out.size = sizeof(out);
+    if (carom_impact(law, &in, &out) == CAROM_STATUS_OK)
+    {
+        return false;
+    }
+
+    in.draws[0] = 0.5;
+    return carom_impact(law, &in, &out) == CAROM_STATUS_OK;
+}
+
+const char* orNull(const Foam::string& text)
+{
+    return text.empty() ? nullptr : text.c_str();
+}
+
+} // End anonymous namespace
+
+
+Foam::caromLaw::caromLaw()
+:
+    law_(),
+    draws_(0)
+{}
+
+
+Foam::caromLaw::caromLaw(const dictionary& entry, const fileName& materials, const fileName& caseDir)
+:
+    law_(),
+    draws_(0)
+{
+    if (entry.found("law") == entry.found("file"))
+    {
+        FatalIOErrorInFunction(entry)
+            << "The entry of patch '" << entry.dictName() << "' needs either 'law' (a wall law as text, #{ ... #}) or"
+            << " 'file' (a file with wall laws) and 'name'" << nl << exit(FatalIOError);
+    }
+
+    const string name(entry.getOrDefault<word>("name", word::null));
+    const string materialsPath(materials.empty() ? string() : path(materials, caseDir));
+
+    const quietFloat quiet;
+    carom_law* law = nullptr;
+    carom_status status;
+    if (entry.found("file"))
+    {
+        const string file(path(entry.get<fileName>("file"), caseDir));
+        status = carom_law_from_file(file.c_str(), orNull(name), orNull(materialsPath), &law);
+    }
+    else
+    {
+        const string text(entry.get<string>("law"));
+        const string materialsText(materials.empty() ? string() : contents(entry, materialsPath));
+        status = carom_law_from_text(text.c_str(), orNull(name), orNull(materialsText), &law);
+    }
+
+    if (status != CAROM_STATUS_OK)
+    {
+        FatalIOErrorInFunction(entry)
+            << "The wall law of patch entry '" << entry.dictName() << "' cannot be used:" << nl
+            << carom_last_error() << nl << exit(FatalIOError);
+    }
+
+    law_.reset(static_cast<const carom_law*>(law), [law](const carom_law*) { carom_law_free(law); });
+    draws_ = scatters(law) ? sizeof(carom_impact_in().draws)/sizeof(double) : 0;
+}
+
+
+carom_impact_in Foam::caromLaw::input()
+{
+    carom_impact_in in = carom_impact_in();
+    in.size = sizeof(in);
+    for (double& draw : in.draws)
+    {
+        draw = 0.5;
+    }
+    return in;
+}
+
+
+void Foam::caromLaw::refuse(const carom_impact_in& in)
+{
+    FatalErrorInFunction
+        << "No answer to the impact of a sphere of diameter " << in.diameter << " m and density " << in.density
+        << " kg/m3 at velocity (" << in.velocity[0] << ' ' << in.velocity[1] << ' ' << in.velocity[2] << "): "
+        << carom_last_error() << abort(FatalError);
+}
