@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Instructions (by valgrind's callgrind) and ns per impact, from Rust and through the C interface, on the same impacts.
+# Instructions (by valgrind's callgrind) and ns of processor time per impact, from Rust and through the C interface, on the same impacts.
 # Usage: benches/c-interface.sh [ROUNDS of 512 impacts, default 20000]
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -21,8 +21,12 @@ instructions() { # of N and of 2N rounds; the difference is that of N rounds alo
 instructions Rust "$rust" 32
 instructions C "$work/cost" 32
 instructions "C, batch" "$work/cost" 32 batch
-for _ in 1 2 3 4 5; do
-    "$rust" "$rounds"
-    "$work/cost" "$rounds"
-    "$work/cost" "$rounds" batch
+instructions "C, columns (AVX2)" "$work/cost" 32 columns
+TIMEFORMAT=%U # processor time: others may use the machine
+for _ in 1 2 3 4 5 6 7; do
+    for kind in "Rust:$rust" "C:$work/cost" "C, batch:$work/cost batch" "C, columns:$work/cost columns"; do
+        read -r program option <<<"${kind#*:}"
+        seconds=$({ time "$program" "$rounds" $option >/dev/null; } 2>&1)
+        echo "${kind%%:*}: $(awk -v s="$seconds" -v n="$rounds" 'BEGIN { printf "%.1f", s * 1e9 / n / 512 }') ns per impact"
+    done
 done

@@ -123,7 +123,7 @@ fn capture_velocity(law: &carom::WallLaw, diameter: f64, density: f64, angle: f6
 }
 
 #[cold]
-fn null(what: &str) -> Status {
+pub(crate) fn null(what: &str) -> Status {
     fail(Status::BadArgument, &format_args!("{what} is NULL"))
 }
 
@@ -133,7 +133,7 @@ fn refused(error: ImpactError) -> Status {
 }
 
 #[cold]
-fn refused_at(index: usize, error: ImpactError) -> Status {
+pub(crate) fn refused_at(index: usize, error: ImpactError) -> Status {
     fail(status_of(error), &format_args!("impact {index}: {error}"))
 }
 

@@ -50,7 +50,8 @@ pub struct ImpactIn {
     pub normal: [f64; 3],
     /// Velocity of the wall at the contact point, m/s.
     pub wall_velocity: [f64; 3],
-    /// Uniform draws in [0, 1) for laws that scatter; the caller owns the randomness.
+    /// Uniform draws in [0, 1) for laws that scatter, new ones for each impact: the caller owns the randomness. Zeros are draws like
+    /// any other.
     pub draws: [f64; 4],
 }
 
@@ -92,7 +93,7 @@ pub struct ImpactOut {
     pub velocity: [f64; 3],
     /// Angular velocity after the impact, rad/s.
     pub spin: [f64; 3],
-    /// Restitution e, 0 for a capture.
+    /// Restitution e, 0 for a capture; may exceed 1 on a wall that scatters.
     pub restitution: f64,
     /// Impulse ratio, tangential over normal; NaN for a capture.
     pub impulse_ratio: f64,

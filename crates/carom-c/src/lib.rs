@@ -10,12 +10,14 @@
 //! - SI units; angles in radians, from the surface.
 
 mod calls;
+mod columns;
 mod impact;
 mod law;
 mod names;
 mod status;
 
 pub use calls::{carom_capture_velocity, carom_impact, carom_impact_batch};
+pub use columns::carom_impact_columns;
 pub use impact::{Contact, Energy, Fate, ImpactIn, ImpactOut};
 pub use law::{Law, carom_law_density, carom_law_free, carom_law_from_file, carom_law_from_text};
 pub use names::{carom_contact_name, carom_fate_name, carom_validity_meaning, carom_validity_name, carom_version};

@@ -2,7 +2,7 @@
 
 mod common;
 
-use carom_c::{Status, carom_impact, carom_impact_batch, carom_law_free};
+use carom_c::{Status, carom_impact, carom_impact_batch, carom_impact_columns, carom_law_free};
 use common::*;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -51,7 +51,14 @@ fn impacts_allocate_nothing() {
         // SAFETY: a law and arrays of the length said.
         let status =
             unsafe { carom_impact_batch(law, ins.len(), ins.as_ptr(), outs.as_mut_ptr(), std::ptr::null_mut()) };
+        let (column, mut a, mut b, mut c) = ([1e-5; 100], [0.0; 100], [0.0; 100], [0.0; 100]);
+        let (p, none) = (column.as_ptr(), std::ptr::null_mut());
+        let (x, y, z) = (a.as_mut_ptr(), b.as_mut_ptr(), c.as_mut_ptr());
+        // SAFETY: a law and columns of the length said.
+        let in_columns =
+            unsafe { carom_impact_columns(law, 100, p, p, p, p, x, y, z, none, none, std::ptr::null_mut()) };
         let after = CALLS.load(Ordering::Relaxed);
+        assert_eq!(in_columns, Status::Ok);
         assert_eq!(after - before, 0, "{name}");
         assert!(met > 0 && refused > 0 && status == Status::NotApproaching);
         // SAFETY: used no more.

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 /// In the order of the header.
-const SOURCES: [&str; 5] = ["status.rs", "impact.rs", "law.rs", "calls.rs", "names.rs"];
+const SOURCES: [&str; 6] = ["status.rs", "impact.rs", "law.rs", "calls.rs", "columns.rs", "names.rs"];
 
 fn generated(root: &Path) -> String {
     let config = cbindgen::Config::from_file(root.join("cbindgen.toml")).expect("cbindgen.toml");

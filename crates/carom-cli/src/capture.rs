@@ -1,5 +1,7 @@
 //! `carom capture`: the window of rebound of one diameter, or a curve over diameters.
 
+mod sampled;
+
 use crate::failure::Failure;
 use crate::figures::Figures;
 use crate::grid::{Grid, GridArgs, Over, Swept};
@@ -7,7 +9,10 @@ use crate::law::LawArgs;
 use crate::motion::{ImpactArgs, MotionArgs};
 use crate::output;
 use crate::removal::{self, RemovalArgs};
+use crate::samples::SampleArgs;
+use crate::study::is_drawn;
 use crate::text::Lines;
+use crate::uncertain::Given;
 use carom_report::{Axis, Column, Plot, Table};
 
 const EXAMPLE: &str = "\
@@ -16,6 +21,7 @@ Examples:
   carom capture --sphere copper --surface aluminium --over diameter=1um..1mm --plot capture.svg
   carom capture --sphere copper --surface silicon --diameter 50um --friction 0.2 --removal
   carom capture --sphere copper --over diameter=1..100um --by surface=aluminium,silicon,stainless-steel
+  carom capture --sphere copper --surface silicon --diameter 'lognormal(50um, 1.3)' --over speed=0.01..1 --plot p.svg
 
 At and below the capture velocity (normal to the wall) the sphere sticks.";
 
@@ -23,23 +29,25 @@ At and below the capture velocity (normal to the wall) the sphere sticks.";
 #[derive(clap::Args)]
 #[command(after_long_help = EXAMPLE)]
 pub struct Args {
-    /// Diameter of the sphere, such as 90um
-    #[arg(long, value_name = "LENGTH", help_heading = "Impact", value_parser = crate::values::diameter)]
-    diameter: Option<f64>,
+    /// Diameter of the sphere, such as 90um, or a distribution of it, such as 'lognormal(50um, 1.3)'
+    #[arg(long, value_name = "LENGTH", help_heading = "Impact", value_parser = crate::values::diameters)]
+    diameter: Option<Given>,
     #[command(flatten)]
     law: LawArgs,
-    /// A range of diameters: diameter=1um..1mm
+    /// A range of diameters: diameter=1um..1mm; where a value is a distribution, also of speeds
     #[arg(long, value_name = "RANGE", help_heading = "Sweep")]
     over: Option<Over>,
     #[command(flatten)]
     grid: GridArgs,
+    #[command(flatten)]
+    samples: SampleArgs,
     #[command(flatten)]
     removal: RemovalArgs,
 }
 
 /// Runs the subcommand.
 pub fn run(args: &Args) -> Result<(), Failure> {
-    let motion = MotionArgs { diameter: args.diameter, ..MotionArgs::default() };
+    let motion = MotionArgs { diameter: args.diameter.clone(), ..MotionArgs::default() };
     let case = ImpactArgs { motion, law: args.law.clone() };
     match args.over {
         Some(_) if args.removal.wanted() => {
@@ -64,6 +72,9 @@ struct Answer {
 }
 
 fn one(args: &Args, case: &ImpactArgs) -> Result<(), Failure> {
+    if let Some(sampling) = args.samples.sampling(is_drawn(case)) {
+        return sampled::one(args, case, &sampling);
+    }
     let diameter = case.motion.wanted_diameter()?;
     let law = case.law.compile(false)?;
     let figures = Figures::new(&law.wall, diameter)?;
@@ -81,14 +92,21 @@ fn one(args: &Args, case: &ImpactArgs) -> Result<(), Failure> {
 }
 
 fn curves(args: &Args, over: Over, case: &ImpactArgs) -> Result<(), Failure> {
-    if over.quantity != Swept::Diameter {
-        let got = over.quantity.flag();
-        return Err(Failure::input(format!("--over {got}: the capture velocity has a curve over diameter alone")));
-    }
     let files = args.grid.files()?;
     let grid = args.grid.grid(over, case)?;
+    let sampling = args.samples.sampling(grid.curves.iter().any(|c| is_drawn(&c.args)));
+    if over.quantity != Swept::Diameter && !(over.quantity == Swept::Speed && sampling.is_some()) {
+        let got = over.quantity.flag();
+        return Err(Failure::input(format!(
+            "--over {got}: the capture velocity has a curve over diameter alone (and over speed the probability of \
+             sticking, where a value is a distribution)"
+        )));
+    }
     if let Some(flag) = ["speed", "angle", "spin"].into_iter().find(|f| grid.varies(f)) {
         return Err(Failure::input(format!("--by {flag}: the capture velocity does not depend on it")));
+    }
+    if let Some(sampling) = sampling {
+        return sampled::curves(&grid, &files, &sampling);
     }
     let mut figures = Vec::with_capacity(grid.curves.len() * grid.points.len());
     let mut titles = Vec::new();

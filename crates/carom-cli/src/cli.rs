@@ -1,7 +1,7 @@
 //! The command line as a whole.
 
 use crate::failure::Failure;
-use crate::{capture, impact, materials, merge, run, sweep, validate};
+use crate::{capture, export, fit, impact, materials, merge, run, sweep, validate};
 use clap::{Parser, Subcommand};
 
 const EXAMPLES: &str = "\
@@ -10,8 +10,10 @@ Examples:
   carom sweep --sphere copper --surface aluminium --diameter 90um --over speed=0.01..30 --plot e.svg
   carom capture --sphere copper --surface aluminium --over diameter=1um..1mm
   carom materials copper
+  carom fit points.csv --sphere copper --surface glass --diameter 90um --free roughness_factor
   carom run examples/wind-tunnel.toml --out out/
   carom validate --out report/
+  carom export --format openfoam --wall-law walls.toml:glass --diameter 10um..100um --speed 0.1..30
 
 Quantities take a unit (90um, 2m/s, 190GPa) or are SI numbers. `carom SUBCOMMAND --help` says more.
 Exit codes: 0 done, 2 the input is wrong, 1 anything else.";
@@ -32,7 +34,9 @@ enum Command {
     Materials(materials::Args),
     Run(run::Args),
     Merge(merge::Args),
+    Fit(Box<fit::Args>),
     Validate(validate::Args),
+    Export(Box<export::Args>),
 }
 
 impl Cli {
@@ -45,7 +49,9 @@ impl Cli {
             Command::Materials(args) => materials::run(args),
             Command::Run(args) => run::run(args),
             Command::Merge(args) => merge::merge(args),
+            Command::Fit(args) => fit::run(args),
             Command::Validate(args) => validate::run(args),
+            Command::Export(args) => export::run(args),
         }
     }
 }

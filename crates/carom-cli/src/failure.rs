@@ -1,6 +1,7 @@
 //! What can go wrong, how it is shown, and the exit code: 2 for the user's input, 1 for anything else.
 
 use carom::SpecError;
+use carom_lab::LabError;
 use carom_report::ReportError;
 use clap::error::ErrorKind;
 use miette::{LabeledSpan, MietteDiagnostic, NamedSource};
@@ -83,6 +84,20 @@ impl From<ReportError> for Failure {
             ReportError::File { path, source } => of_file(&path.display().to_string(), source),
             ReportError::Stream(source) => Self::from_output(source),
             _ => Self::Other(error.to_string()),
+        }
+    }
+}
+
+impl From<LabError> for Failure {
+    fn from(error: LabError) -> Self {
+        match error {
+            LabError::Experiment { name, text, error } => Self::in_file(error, &name, &text),
+            LabError::Data { name, text, error } => Self::in_file(*error, &name, &text),
+            LabError::File { path, source } => of_file(&path.display().to_string(), &source),
+            LabError::Report(error) => error.into(),
+            LabError::Points(message) => Self::Input(message),
+            LabError::Fit(error) => Self::Input(error.to_string()),
+            other => Self::Other(other.to_string()),
         }
     }
 }

@@ -4,12 +4,13 @@ mod by;
 mod over;
 
 pub use by::By;
-pub use over::{Over, Swept};
+pub use over::{Over, Swept, with_unit};
 
 use crate::failure::Failure;
 use crate::motion::ImpactArgs;
 use crate::output::{self, Files};
 use crate::text::plotted;
+use crate::uncertain::Given;
 use crate::values;
 use by::set;
 use carom_report::plot::Dash;
@@ -106,6 +107,10 @@ impl GridArgs {
                 curves.len()
             )));
         }
+        let drawn = |c: &Curve| c.args.motion.diameter.as_ref().is_some_and(|d| d.distribution().is_some());
+        if over.quantity == Swept::Diameter && curves.iter().any(drawn) {
+            return Err(Failure::input("--diameter is a distribution, but --over runs through the diameter; keep one"));
+        }
         let points = over.points(count, self.is_linear(over));
         Ok(Grid { args: self, over, points, curves })
     }
@@ -132,12 +137,18 @@ impl Curve {
         Ok(Self { args, values, places })
     }
 
+    /// A diameter that is a distribution, at a probability; none where it is one value or runs.
+    pub fn diameter(&self, quantity: Swept, probability: f64) -> Option<f64> {
+        let given = self.args.motion.diameter.as_ref().filter(|_| quantity != Swept::Diameter)?;
+        given.distribution().map(|d| d.quantile(probability))
+    }
+
     /// The flags at one point.
     pub fn at(&self, quantity: Swept, value: f64) -> crate::motion::MotionArgs {
         let mut motion = self.args.motion.clone();
         match quantity {
             Swept::Speed => motion.speed = Some(value),
-            Swept::Diameter => motion.diameter = Some(value),
+            Swept::Diameter => motion.diameter = Some(Given::One(value)),
             Swept::Angle => motion.angle = Some(value),
         }
         motion
@@ -157,7 +168,8 @@ impl Grid<'_> {
         };
         let mut columns: Vec<Column> = Vec::new();
         for (n, by) in self.args.by.iter().enumerate() {
-            if let Some(quantity) = Swept::ALL.into_iter().find(|q| q.flag() == by.key) {
+            let quantity = Swept::ALL.into_iter().find(|q| q.flag() == by.key);
+            if let Some(quantity) = quantity.filter(|q| by.values.iter().all(|v| q.read(v).is_ok())) {
                 let (name, unit) = quantity.column();
                 columns.push(Column::float(name, unit, each(&|c| quantity.read(&c.values[n]).unwrap_or(f64::NAN))));
                 continue;
@@ -204,6 +216,19 @@ impl Grid<'_> {
                 line = line.color(Color::cycle(color)).dash([Dash::Solid, Dash::Dashed, Dash::Dotted][dash % 3]);
             }
             plot.with(line)
+        })
+    }
+
+    /// A line and a band for each curve, in one colour; the name of the band where there is one curve.
+    pub fn draw_bands(&self, plot: Plot, bands: &[(f64, f64, f64)], names: [&str; 2]) -> Plot {
+        let curves = self.curves.iter().zip(bands.chunks(self.points.len())).enumerate();
+        curves.fold(plot, |plot, (number, (curve, rows))| {
+            let color = Color::cycle(number);
+            let alone = self.curves.len() == 1;
+            let [line, band] = if alone { names.map(str::to_owned) } else { [self.label(curve), String::new()] };
+            let x = || self.points.iter().copied();
+            plot.with(Series::band(band, x(), rows.iter().map(|r| r.1), rows.iter().map(|r| r.2)).color(color))
+                .with(Series::line(line, x(), rows.iter().map(|r| r.0)).color(color))
         })
     }
 

@@ -156,6 +156,10 @@ fn tell(answer: &Answer, law: &Law, motion: &Motion, met: &Met) -> String {
         lines.add("critical angle", format!("{} (without spin, it slides to the end below)", quantity(angle, "deg")));
     }
     figures::Figures::new(&law.wall, motion.diameter).map(|f| f.tell(&mut lines)).ok();
+    if let Some(scatter) = law.wall.scatter() {
+        let angle = quantity(scatter.deviation().to_degrees(), "deg");
+        lines.add("rough", format!("roughness angle {angle}: this is the impact on the median facet; e and the angles are against the mean wall"));
+    }
     lines.add("energy", shares(met));
     for (code, bit, meaning) in validity::CODES {
         if met.outcome.validity.contains(bit) {

@@ -2,8 +2,10 @@
 
 mod capture;
 mod cli;
+mod export;
 mod failure;
 mod figures;
+mod fit;
 mod grid;
 mod history;
 mod impact;
@@ -15,9 +17,12 @@ mod output;
 mod removal;
 mod report;
 mod run;
+mod samples;
+mod study;
 mod sweep;
 mod text;
 mod trajectories;
+mod uncertain;
 mod validate;
 mod values;
 

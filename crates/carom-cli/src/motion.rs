@@ -3,6 +3,7 @@
 use crate::failure::Failure;
 use crate::law::{Law, LawArgs};
 use crate::text::scaled;
+use crate::uncertain::{Distribution, Given};
 use crate::values;
 use carom::{Fate, Impact, ImpactError, Outcome, WallLaw};
 
@@ -18,9 +19,9 @@ pub struct ImpactArgs {
 /// The motion's flags.
 #[derive(clap::Args, Clone, Debug, Default)]
 pub struct MotionArgs {
-    /// Diameter of the sphere, such as 90um
-    #[arg(long, value_name = "LENGTH", help_heading = "Impact", value_parser = values::diameter)]
-    pub diameter: Option<f64>,
+    /// Diameter of the sphere, such as 90um; `carom sweep` and `capture` take a distribution too
+    #[arg(long, value_name = "LENGTH", help_heading = "Impact", value_parser = values::diameters)]
+    pub diameter: Option<Given>,
     /// Speed of approach, such as 2m/s
     #[arg(long, value_name = "SPEED", help_heading = "Impact", value_parser = values::speed)]
     pub speed: Option<f64>,
@@ -48,8 +49,13 @@ pub struct Motion {
 impl MotionArgs {
     /// The motion, complete.
     pub fn complete(&self) -> Result<Motion, Failure> {
+        self.with_diameter(self.wanted_diameter()?)
+    }
+
+    /// The motion of a sphere of that diameter.
+    pub fn with_diameter(&self, diameter: f64) -> Result<Motion, Failure> {
         Ok(Motion {
-            diameter: self.wanted_diameter()?,
+            diameter,
             speed: self.speed.ok_or_else(|| {
                 Failure::input("--speed is missing; give the speed of approach, such as --speed 2m/s")
             })?,
@@ -60,7 +66,16 @@ impl MotionArgs {
 
     /// The diameter alone.
     pub fn wanted_diameter(&self) -> Result<f64, Failure> {
+        match self.wanted_diameters()? {
+            Given::One(diameter) => Ok(*diameter),
+            Given::Drawn(d) => Err(one_wanted("diameter", d)),
+        }
+    }
+
+    /// The diameter, or its distribution.
+    pub fn wanted_diameters(&self) -> Result<&Given, Failure> {
         self.diameter
+            .as_ref()
             .ok_or_else(|| Failure::input("--diameter is missing; give the sphere's diameter, such as --diameter 90um"))
     }
 
@@ -83,9 +98,15 @@ impl Motion {
 
     /// The impact, on a wall at y = 0 with the sphere above it moving along +x.
     pub fn meet(&self, wall: &WallLaw) -> Result<Met, ImpactError> {
+        self.meet_drawn(wall, [0.5; 4])
+    }
+
+    /// Likewise, with the draws of a wall that scatters.
+    pub fn meet_drawn(&self, wall: &WallLaw, draws: [f64; 4]) -> Result<Met, ImpactError> {
         let (normal, tangential) = self.components();
         let mut impact = Impact::new(self.diameter, [tangential, -normal, 0.0], [0.0, 1.0, 0.0]);
         impact.spin = [0.0, 0.0, -self.spin];
+        impact.draws = draws;
         Ok(Met::from(wall.impact(&impact)?))
     }
 }
@@ -118,13 +139,20 @@ impl Met {
 
     /// Speed after, m/s.
     pub fn speed(&self) -> f64 {
-        self.normal.hypot(self.tangential)
+        self.normal.hypot(self.tangential).hypot(self.outcome.velocity[2])
     }
 
-    /// Angle after from the surface, degrees, beyond 90 when it goes back; NaN for a capture.
+    /// Angle after from the surface, degrees, beyond 90 when it goes back, as seen from the side; NaN for a capture.
     pub fn angle(&self) -> f64 {
         if self.rebounds() { self.normal.atan2(self.tangential).to_degrees() } else { f64::NAN }
     }
+}
+
+/// A distribution where one value is wanted.
+pub fn one_wanted(flag: &str, distribution: &Distribution) -> Failure {
+    Failure::input(format!(
+        "--{flag} {distribution}: one value is wanted here; distributions go with `carom sweep` and `carom capture`"
+    ))
 }
 
 /// An impact the core refused, in terms of the flags.

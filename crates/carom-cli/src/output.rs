@@ -70,7 +70,8 @@ impl<'a> Files<'a> {
     }
 }
 
-fn check_folder(path: &Path) -> Result<(), Failure> {
+/// Refuses a file that could not be written: a folder, or a file in none.
+pub fn check_folder(path: &Path) -> Result<(), Failure> {
     if path.is_dir() {
         return Err(Failure::input(format!("{}: a folder; name a file", path.display())));
     }
@@ -80,6 +81,11 @@ fn check_folder(path: &Path) -> Result<(), Failure> {
         }
         _ => Ok(()),
     }
+}
+
+/// Writes a text, whole or not at all.
+pub fn write(path: &Path, text: &str) -> Result<(), Failure> {
+    Ok(carom_report::write_text(path, text)?)
 }
 
 /// Largest text file read, bytes: far beyond any law or material file.

@@ -9,6 +9,7 @@ mod what;
 
 use crate::failure::Failure;
 use crate::trajectories;
+use carom::validity::CODES;
 use carom_report::{Column, Report, Table, significant};
 use carom_track::record::Fate;
 use carom_track::{About, Summary};
@@ -23,7 +24,7 @@ const PICTURE: &str = "trajectories.svg";
 pub fn write(about: &About, summary: &Summary, folder: &Path, report: bool) -> Result<(), Failure> {
     let picture = trajectories::picture(about, folder)?;
     match &picture {
-        Some(plot) => plot.write(folder.join(PICTURE))?,
+        Some((plot, _)) => plot.write(folder.join(PICTURE))?,
         None => clear(folder, PICTURE),
     }
     if !report {
@@ -34,9 +35,9 @@ pub fn write(about: &About, summary: &Summary, folder: &Path, report: bool) -> R
     let mut page = Report::new(title);
     what::section(&mut page, about)?;
     fates(&mut page, summary)?;
-    if let Some(mut plot) = picture {
+    if let Some((mut plot, caption)) = picture {
         plot.title.clear();
-        page.section("Paths").figure(&plot.svg()?, "Paths of the first particles, seen along z.");
+        page.section("Paths").figure(&plot.svg()?, &caption);
     }
     // the two tables are large and know nothing of each other
     let (ends, impacts) = std::thread::scope(|scope| {
@@ -103,7 +104,37 @@ fn fates(page: &mut Report, summary: &Summary) -> Result<(), Failure> {
         columns.push(Column::float(format!("{} mass", fate.name()), "kg", masses));
     }
     page.table(&Table::new(columns)?, "What happened at each wall.");
+    doubts(page, summary)
+}
+
+/// What to mind about the laws' answers.
+fn doubts(page: &mut Report, summary: &Summary) -> Result<(), Failure> {
+    let found: Vec<_> = summary
+        .walls
+        .iter()
+        .flat_map(|w| {
+            CODES.iter().zip(w.doubts).map(move |((code, _, meaning), n)| (*code, w.name.as_str(), n, *meaning))
+        })
+        .filter(|(_, _, impacts, _)| *impacts > 0)
+        .collect();
+    if found.is_empty() {
+        return Ok(());
+    }
+    let columns = [
+        Column::text("code", found.iter().map(|f| f.0)),
+        Column::text("wall", found.iter().map(|f| f.1)),
+        Column::count("impacts", found.iter().map(|f| f.2)),
+        Column::text("which means", found.iter().map(|f| f.3)),
+    ];
+    page.table(&Table::new(columns)?, "Doubts: impacts that asked a wall's law for more than it is good for.");
     Ok(())
+}
+
+/// Says of how many rows a section was made, where not of all.
+fn say_sample(page: &mut Report, rows: u64, one_in: u64, of: u64, what: &str, whole: &str) {
+    if one_in > 1 {
+        page.paragraph(&format!("From a random sample of {rows} of the {of} {what}. {whole}"));
+    }
 }
 
 /// A percentage to a hundredth.
@@ -131,6 +162,7 @@ fn deposits(page: &mut Report, ends: &Ends, summary: &Summary) -> Result<(), Fai
     if walls.is_empty() {
         page.paragraph("No wall kept a particle.");
     }
+    say_sample(page, ends.rows, ends.one_in, summary.injected.count, "particles", "deposition.csv counts them all.");
     for wall in &walls {
         if let Some((plot, axis)) = figures::deposit(ends, *wall) {
             let name = &summary.walls[*wall].name;
@@ -156,6 +188,8 @@ fn distributions(page: &mut Report, impacts: &Impacts, summary: &Summary) -> Res
         page.paragraph("No particle met a wall.");
         return Ok(());
     }
+    let all = summary.walls.iter().map(|w| w.impacts).sum();
+    say_sample(page, impacts.rows, impacts.one_in, all, "impacts", "The shares of energy below are from it too.");
     for (plot, caption) in figures::distributions(impacts, summary, &walls) {
         page.figure(&plot.svg()?, caption);
     }
@@ -178,9 +212,13 @@ fn energy(page: &mut Report, impacts: &Impacts, summary: &Summary) {
             begun = true;
         }
         let rows = MECHANISMS.iter().zip(tally.energy).filter(|(_, energy)| *energy > 0.0);
-        let rows: Vec<_> = rows
-            .map(|(name, energy)| (name.replace('_', " "), energy / total, format!("{} J", significant(energy, 4))))
-            .collect();
+        // a sample's energy stands for that of all
+        let joules = |energy: f64| {
+            let all = energy * impacts.one_in.max(1) as f64;
+            format!("{} J", significant(all, if impacts.one_in > 1 { 3 } else { 4 }))
+        };
+        let rows: Vec<_> =
+            rows.map(|(name, energy)| (name.replace('_', " "), energy / total, joules(energy))).collect();
         page.shares(rows.iter().map(|(name, share, amount)| (name.as_str(), *share, amount.clone())), &wall.name);
     }
 }

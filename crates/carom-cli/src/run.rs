@@ -64,6 +64,9 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let text = output::read(&args.case)?;
     let name = args.case.display().to_string();
     let case = Case::from_toml(&text, &args.case, &library).map_err(|e| Failure::in_file(e, &name, &text))?;
+    for note in &case.notes {
+        say(&format!("note: {note}"));
+    }
     let options = RunOptions { threads: args.threads, out: args.out.clone(), resume: args.resume, shard: args.shard };
     let bar = Bar::new();
     let summary = carom_track::run(&case, &options, &bar);
@@ -144,13 +147,17 @@ pub fn tell(summary: &Summary) -> Result<String, Failure> {
         Column::count("impacts", walls.iter().map(|w| w.impacts)),
         Column::count("rebounds", walls.iter().map(|w| w.rebounds)),
     ];
-    for fate in [Fate::Captured, Fate::Settled, Fate::Trapped, Fate::Escaped] {
+    for fate in Fate::AT_WALLS {
         if summary.count(fate) > 0 {
             columns.push(Column::count(fate.name(), walls.iter().map(|w| w.ends[fate as usize].count)));
         }
     }
     if !walls.is_empty() {
         text += &Table::new(columns)?.to_text();
+    }
+    let doubts: Vec<String> = summary.doubts().map(|(code, count)| format!("{code} {count}")).collect();
+    if !doubts.is_empty() {
+        let _ = writeln!(text, "\nimpacts beyond what their law is good for: {}", doubts.join(", "));
     }
     Ok(text)
 }

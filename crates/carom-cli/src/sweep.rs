@@ -1,12 +1,16 @@
 //! `carom sweep`: impacts along a range of speeds, diameters or angles, as a table and a plot.
 
-use crate::failure::Failure;
+use crate::failure::{Failure, say};
 use crate::grid::{Grid, GridArgs, Over, Swept};
 use crate::law::Law;
 use crate::motion::{ImpactArgs, Met, refused};
-use crate::text::{plotted, quantity};
+use crate::output::Files;
+use crate::samples::{SampleArgs, Sampling};
+use crate::study::{Figure, NOTHING, Study, drawn, is_drawn};
+use crate::text::{number, plotted, quantity};
+use crate::uncertain::Given;
 use carom_report::plot::Reference;
-use carom_report::{Axis, Column, Plot, Table};
+use carom_report::{Axis, Column, Plot, Series, Table};
 
 const EXAMPLE: &str = "\
 Examples:
@@ -15,6 +19,12 @@ Examples:
   carom sweep --sphere copper --surface silicon --diameter 90um --over speed=0.1..30 --by law=ea,resolved
   carom sweep --wall-law walls.toml:glass --diameter 90um --speed 2 --over angle=5..90 \
     --quantity impulse-ratio --plot impulse.png
+  carom sweep --sphere copper --surface silicon --diameter 'lognormal(50um, 1.3)' \
+    --roughness-factor 'normal(0.8, 0.1)' --over speed=0.01..1 --plot bands.svg
+
+A value may be lognormal(MEDIAN, GSD), normal(MEAN, DEVIATION) or uniform(FROM, TO): the table then has the
+probability of sticking and the median and 5-95 % of each figure. So it has where --samples is given and the wall
+scatters (--roughness-angle).
 
 The table goes to standard output unless a file is asked for with --out or --plot.";
 
@@ -29,6 +39,8 @@ pub struct Args {
     over: Over,
     #[command(flatten)]
     grid: GridArgs,
+    #[command(flatten)]
+    samples: SampleArgs,
     /// What the plot shows
     #[arg(long, value_enum, default_value_t = Shown::Restitution, help_heading = "Output")]
     quantity: Shown,
@@ -42,26 +54,33 @@ enum Shown {
     ImpulseRatio,
     TangentialRestitution,
     AngleOut,
+    StickingProbability,
 }
 
 impl Shown {
-    fn of(self, met: &Met) -> f64 {
+    /// The figure of an impact; none for what only many impacts have.
+    fn figure(self) -> Option<Figure> {
         match self {
-            Self::Restitution => met.outcome.restitution,
-            Self::ReboundSpeed => met.speed(),
-            Self::ImpulseRatio => met.outcome.impulse_ratio,
-            Self::TangentialRestitution => met.outcome.tangential_restitution,
-            Self::AngleOut => met.angle(),
+            Self::Restitution => Some(Figure::Restitution),
+            Self::ReboundSpeed => Some(Figure::ReboundSpeed),
+            Self::ImpulseRatio => Some(Figure::ImpulseRatio),
+            Self::TangentialRestitution => Some(Figure::TangentialRestitution),
+            Self::AngleOut => Some(Figure::AngleOut),
+            Self::StickingProbability => None,
         }
     }
 
-    fn axis(self) -> Axis {
+    /// The vertical axis for values up to `most`.
+    fn axis(self, most: f64) -> Axis {
         match self {
+            // off a wall that scatters, shallow rebounds are faster than they came in
+            Self::Restitution if most > 1.0 => Axis::new("restitution", ""),
             Self::Restitution => Axis::new("restitution", "").range(0.0, 1.0),
             Self::ReboundSpeed => Axis::new("rebound speed", "m/s"),
             Self::ImpulseRatio => Axis::new("impulse ratio", ""),
             Self::TangentialRestitution => Axis::new("tangential restitution", ""),
             Self::AngleOut => Axis::new("angle of rebound from the surface", "°"),
+            Self::StickingProbability => Axis::new("sticking probability", "").range(0.0, 1.0),
         }
     }
 }
@@ -70,6 +89,12 @@ impl Shown {
 pub fn run(args: &Args) -> Result<(), Failure> {
     let files = args.grid.files()?;
     let grid = args.grid.grid(args.over, &args.case)?;
+    if let Some(sampling) = args.samples.sampling(grid.curves.iter().any(|c| is_drawn(&c.args))) {
+        return sampled(args, &grid, &files, &sampling);
+    }
+    let Some(shown) = args.quantity.figure() else {
+        return Err(Failure::input(format!("--quantity sticking-probability: one impact has none. {NOTHING}")));
+    };
     let mut laws = Vec::with_capacity(grid.curves.len());
     let mut met = Vec::with_capacity(grid.curves.len() * grid.points.len());
     for curve in &grid.curves {
@@ -82,7 +107,12 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         laws.push(law);
     }
     let oblique = grid.quantity() == Swept::Angle || grid.curves.iter().any(|c| c.args.motion.is_oblique());
-    grid.show(&files, || whole(&grid, &met), || short(&grid, &met, oblique), || plot(&grid, &met, &laws, args.quantity))
+    grid.show(
+        &files,
+        || whole(&grid, &met),
+        || short(&grid, &met, oblique),
+        || plot(&grid, &met, &laws, args.quantity, shown),
+    )
 }
 
 fn float(name: &str, unit: &str, met: &[Met], get: impl Fn(&Met) -> f64) -> Column {
@@ -138,10 +168,43 @@ fn short(grid: &Grid, met: &[Met], oblique: bool) -> Result<Table, Failure> {
     Ok(Table::new(columns)?)
 }
 
-fn plot(grid: &Grid, met: &[Met], laws: &[Law], shown: Shown) -> Plot {
-    let values: Vec<f64> = met.iter().map(|m| shown.of(m)).collect();
-    let plot = grid.draw(Plot::new(title(grid, laws), grid.axis(), shown.axis()), &values);
+fn plot(grid: &Grid, met: &[Met], laws: &[Law], shown: Shown, figure: Figure) -> Plot {
+    let values: Vec<f64> = met.iter().map(|m| figure.of(m)).collect();
+    let axis = shown.axis(values.iter().copied().fold(0.0, f64::max));
+    let plot = grid.draw(Plot::new(title(grid, laws), grid.axis(), axis), &values);
     references(grid, laws, shown).into_iter().fold(plot, Plot::reference)
+}
+
+/// Where values are distributions or the wall scatters: probabilities and bands.
+fn sampled(args: &Args, grid: &Grid, files: &Files, sampling: &Sampling) -> Result<(), Failure> {
+    let study = Study::new(grid, sampling)?;
+    let table = |figures: &[Figure]| {
+        let mut columns = grid.columns();
+        columns.extend(study.sticking_columns());
+        columns.extend(figures.iter().flat_map(|f| study.band_columns(*f)));
+        Ok(Table::new(columns)?)
+    };
+    let oblique = grid.quantity() == Swept::Angle || grid.curves.iter().any(|c| c.args.motion.is_oblique());
+    let told: &[Figure] = if oblique { &[Figure::Restitution, Figure::AngleOut] } else { &[Figure::Restitution] };
+    say(&sampling.note(grid.curves.iter().map(|c| &c.args)));
+    grid.show(files, || table(&Figure::ALL), || table(told), || sampled_plot(grid, &study, args.quantity))
+}
+
+fn sampled_plot(grid: &Grid, study: &Study, shown: Shown) -> Plot {
+    let rows: Vec<(f64, f64, f64)> = match shown.figure() {
+        Some(figure) => study.bands(figure).iter().map(|b| (b.median, b.low, b.high)).collect(),
+        None => study.sticking.iter().map(|s| (s.value, s.low, s.high)).collect(),
+    };
+    let most = rows.iter().map(|r| r.2).fold(0.0, f64::max);
+    let names =
+        if shown == Shown::StickingProbability { ["probability", "95 % confidence"] } else { ["median", "5–95 %"] };
+    let plot = grid.draw_bands(Plot::new(title(grid, &study.laws), grid.axis(), shown.axis(most)), &rows, names);
+    // where both run from 0 to 1
+    if shown == Shown::Restitution && most <= 1.0 && grid.curves.len() == 1 {
+        let probability = study.sticking.iter().map(|s| s.value);
+        return plot.with(Series::line("sticking probability", grid.points.iter().copied(), probability).dashed());
+    }
+    plot
 }
 
 /// What all curves have in common.
@@ -160,8 +223,8 @@ fn title(grid: &Grid, laws: &[Law]) -> String {
             parts.push(law.normal_name());
         }
     }
-    if let (false, Some(d)) = (grid.varies("diameter") || grid.quantity() == Swept::Diameter, motion.diameter) {
-        parts.push(plotted(d, "m"));
+    if let (false, Some(d)) = (grid.varies("diameter") || grid.quantity() == Swept::Diameter, &motion.diameter) {
+        parts.extend(d.one().map(|d| plotted(d, "m")));
     }
     if let (false, Some(v)) = (grid.varies("speed") || grid.quantity() == Swept::Speed, motion.speed) {
         parts.push(quantity(v, "m/s"));
@@ -169,6 +232,11 @@ fn title(grid: &Grid, laws: &[Law]) -> String {
     if let (false, Some(angle)) = (grid.varies("angle") || grid.quantity() == Swept::Angle, motion.angle) {
         parts.push(format!("{angle}°"));
     }
+    if let (false, Some(scatter)) = (grid.varies("roughness-angle"), law.wall.scatter()) {
+        parts.push(format!("roughness angle {}°", number(scatter.deviation().to_degrees())));
+    }
+    let drawn = drawn(&curve.args).filter(|(flag, _)| !grid.varies(flag));
+    parts.extend(drawn.map(|(flag, d)| format!("{} {d}", flag.replace('-', " "))));
     parts.join(", ")
 }
 
@@ -177,7 +245,7 @@ fn references(grid: &Grid, laws: &[Law], shown: Shown) -> Vec<Reference> {
     let ([law], [curve]) = (laws, &grid.curves[..]) else { return Vec::new() };
     let head_on = curve.args.motion.angle.is_none_or(|a| a == 90.0);
     let (Swept::Speed, true, Shown::Restitution, Some(diameter)) =
-        (grid.quantity(), head_on, shown, curve.args.motion.diameter)
+        (grid.quantity(), head_on, shown, curve.args.motion.diameter.as_ref().and_then(Given::one))
     else {
         return Vec::new();
     };

@@ -2,51 +2,119 @@
 
 use crate::failure::{Failure, of_file};
 use carom_report::plot::Legend;
-use carom_report::{Axis, Color, Plot, Series};
+use carom_report::{Axis, Color, Plot, RowReader, Series};
 use carom_track::About;
 use carom_track::about::AboutPlane;
+use std::borrow::Cow;
 use std::path::Path;
+use std::str::FromStr;
 
 /// One particle's path.
 struct Line {
     particle: u64,
     x: Vec<f64>,
     y: Vec<f64>,
+    /// The last point, wherever it is; one point in so many is kept, and how many have come.
+    last: [f64; 2],
+    one_in: usize,
+    seen: usize,
 }
 
-/// The picture of `trajectories.csv` in the folder, if the run recorded any.
-pub fn picture(about: &About, folder: &Path) -> Result<Option<Plot>, Failure> {
+impl Line {
+    fn new(particle: u64) -> Self {
+        Self { particle, x: Vec::new(), y: Vec::new(), last: [f64::NAN; 2], one_in: 1, seen: 0 }
+    }
+
+    fn push(&mut self, x: f64, y: f64) {
+        self.last = [x, y];
+        if self.seen.is_multiple_of(self.one_in) {
+            if self.x.len() == POINTS {
+                for values in [&mut self.x, &mut self.y] {
+                    let mut place = 0;
+                    values.retain(|_| {
+                        place += 1;
+                        place % 2 == 1
+                    });
+                }
+                self.one_in *= 2;
+            }
+            if self.seen.is_multiple_of(self.one_in) {
+                self.x.push(x);
+                self.y.push(y);
+            }
+        }
+        self.seen += 1;
+    }
+
+    /// A thinned path ends where it ended.
+    fn end(&mut self) {
+        if self.one_in > 1 {
+            self.x.push(self.last[0]);
+            self.y.push(self.last[1]);
+        }
+    }
+}
+
+/// Paths drawn: as many lines as a picture bears.
+const DRAWN: u64 = 100;
+/// Points kept of a path; a longer one is thinned out evenly.
+const POINTS: usize = 10_000;
+
+/// The picture of `trajectories.csv` in the folder, and what it shows; `None` if the run recorded no path.
+pub fn picture(about: &About, folder: &Path) -> Result<Option<(Plot, String)>, Failure> {
     let table = folder.join("trajectories.csv");
     if !table.exists() {
         return Ok(None);
     }
-    let lines = read(&table)?;
-    Ok(extent(&lines).map(|(low, high)| plot(about, &lines, low, high)))
+    let recorded = about.trajectories;
+    let lines = read(&table, recorded)?;
+    let Some((low, high)) = extent(&lines) else { return Ok(None) };
+    let mut plot = plot(about, &lines, low, high);
+    if recorded <= DRAWN {
+        return Ok(Some((plot, "Paths of the first particles, seen along z.".to_owned())));
+    }
+    let few = format!("{DRAWN} of {recorded} recorded paths");
+    plot.title = if plot.title.is_empty() { few.clone() } else { format!("{}: {few}", plot.title) };
+    let rest = "seen along z. trajectories.csv and trajectories.vtp have them all.";
+    Ok(Some((plot, format!("{few}, chosen evenly by particle number, {rest}"))))
 }
 
-fn read(table: &Path) -> Result<Vec<Line>, Failure> {
+/// Whether a particle's path is drawn: all are while they are few, else ones evenly spaced.
+fn drawn(particle: u64, recorded: u64) -> bool {
+    let step = |n: u64| u128::from(n) * u128::from(DRAWN) / u128::from(recorded.max(1));
+    recorded <= DRAWN || particle == 0 || step(particle) != step(particle - 1)
+}
+
+fn read(table: &Path, recorded: u64) -> Result<Vec<Line>, Failure> {
     let name = table.display().to_string();
-    let bad = |e: csv::Error| Failure::Other(format!("{name}: {e}"));
-    let file = std::fs::File::open(table).map_err(|e| of_file(&name, &e))?;
+    let mut rows = RowReader::new(std::fs::File::open(table).map_err(|e| of_file(&name, &e))?);
     let mut lines: Vec<Line> = Vec::new();
-    for row in csv::Reader::from_reader(file).into_deserialize() {
-        let (particle, _time, x, y): (u64, f64, f64, f64) = first_four(row.map_err(bad)?);
-        match lines.last_mut() {
-            Some(line) if line.particle == particle => {
-                line.x.push(x);
-                line.y.push(y);
-            }
-            _ => lines.push(Line { particle, x: vec![x], y: vec![y] }),
+    // the header
+    rows.next_row().map_err(|e| of_file(&name, &e))?;
+    while let Some(row) = rows.next_row().map_err(|e| of_file(&name, &e))? {
+        let mut fields = row.fields();
+        let particle = number(fields.next());
+        if particle.is_some_and(|p| !drawn(p, recorded)) {
+            continue;
+        }
+        let point = (particle, number(fields.nth(1)), number(fields.next()));
+        drop(fields);
+        let (Some(particle), Some(x), Some(y)) = point else {
+            return Err(Failure::Other(format!("{name}: line {} is no point of a path", rows.line())));
+        };
+        if lines.last().is_none_or(|line| line.particle != particle) {
+            lines.push(Line::new(particle));
+        }
+        if let Some(line) = lines.last_mut() {
+            line.push(x, y);
         }
     }
+    lines.iter_mut().for_each(Line::end);
     Ok(lines)
 }
 
-/// A row of the table: particle, time, position, velocity, spin.
-type Row = (u64, f64, f64, f64, f64, f64, f64, f64, f64, f64, f64);
-
-fn first_four(row: Row) -> (u64, f64, f64, f64) {
-    (row.0, row.1, row.2, row.3)
+fn number<T: FromStr>(field: Option<Cow<[u8]>>) -> Option<T> {
+    std::str::from_utf8(&field?).ok()?.parse().ok()
 }
 
 /// Corners of the paths.
@@ -144,6 +212,22 @@ fn edge(plane: &AboutPlane, low: [f64; 2], high: [f64; 2]) -> Option<[[f64; 2]; 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn many_paths_are_thinned_out_evenly_and_long_ones_too() {
+        for recorded in [1, 100, 101, 150, 777, 123_457] {
+            let shown: Vec<u64> = (0..recorded).filter(|n| drawn(*n, recorded)).collect();
+            assert_eq!(shown.len() as u64, recorded.min(DRAWN));
+            let gaps = shown.windows(2).map(|w| w[1] - w[0]);
+            assert!(gaps.clone().max().unwrap_or(0) - gaps.min().unwrap_or(0) <= 1, "{recorded}");
+        }
+        let mut line = Line::new(0);
+        (0..1_000_003).for_each(|i| line.push(f64::from(i), -f64::from(i)));
+        line.end();
+        assert!(line.x.len() <= POINTS + 1 && line.x.len() > POINTS / 2);
+        assert_eq!([line.x[0], line.x[1], line.x[2]], [0.0, 128.0, 256.0]);
+        assert_eq!(line.y.last(), Some(&-1_000_002.0));
+    }
 
     #[test]
     fn a_wall_is_cut_to_the_picture() {

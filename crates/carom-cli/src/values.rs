@@ -1,9 +1,11 @@
 //! Values of flags that need more than a type's own reading.
 
+use crate::uncertain::{self, Given};
 use carom::material::MaterialRef;
 use carom::normal::Loss;
+use carom::scatter;
 use carom::spec::{CurvatureRadius, CurveSpec, NormalSpec};
-use carom::units::{Angle, AngularVelocity, Length, Number, Speed};
+use carom::units::{Angle, AngularVelocity, InverseSpeed, Length, Number, Speed, SurfaceEnergy};
 use std::path::PathBuf;
 
 /// A material's name, or `rho=...,E=...`.
@@ -88,6 +90,52 @@ pub fn speed(text: &str) -> Result<f64, String> {
 pub fn diameter(text: &str) -> Result<f64, String> {
     let Length(value) = text.parse().map_err(|e: carom::units::UnitError| e.to_string())?;
     within(text, value, (1e-10..=10.0).contains(&value), "a diameter lies between 1e-10 m and 10 m, such as 90um")
+}
+
+/// A diameter, m, or a distribution of it.
+pub fn diameters(text: &str) -> Result<Given, String> {
+    if text.contains('(') {
+        uncertain::read(text, |l: Length| l.0, (1e-10, 10.0))
+    } else {
+        diameter(text).map(Given::One)
+    }
+}
+
+/// C_R, or a distribution of it.
+pub fn roughness_factor(text: &str) -> Result<Given, String> {
+    uncertain::read(text, |n: Number| n.0, (1e-9, 1.0))
+}
+
+/// A length that is not negative, or a distribution of it.
+pub fn roughness(text: &str) -> Result<Given, String> {
+    uncertain::read(text, |l: Length| l.0, NOT_NEGATIVE)
+}
+
+/// A work of adhesion, or a distribution of it.
+pub fn work_of_adhesion(text: &str) -> Result<Given, String> {
+    uncertain::read(text, |w: SurfaceEnergy| w.0, NOT_NEGATIVE)
+}
+
+/// A damping coefficient, or a distribution of it.
+pub fn damping(text: &str) -> Result<Given, String> {
+    uncertain::read(text, |c: InverseSpeed| c.0, NOT_NEGATIVE)
+}
+
+/// A friction coefficient, or a distribution of it.
+pub fn friction(text: &str) -> Result<Given, String> {
+    uncertain::read(text, |f: Number| f.0, NOT_NEGATIVE)
+}
+
+const NOT_NEGATIVE: (f64, f64) = (0.0, f64::INFINITY);
+
+/// The deviation of a wall's facets: degrees, unless a unit is written.
+pub fn roughness_angle(text: &str) -> Result<Angle, String> {
+    let angle = match text.trim().parse::<f64>() {
+        Ok(degrees) => degrees.to_radians(),
+        Err(_) => text.parse::<Angle>().map_err(|e| e.to_string())?.0,
+    };
+    let fits = (0.0..=scatter::LARGEST).contains(&angle);
+    within(text, angle, fits, "the standard deviation of a roughness angle lies between 0 and 30 degrees").map(Angle)
 }
 
 /// An angle from the surface: degrees, unless a unit is written.

@@ -168,3 +168,41 @@ fn a_report_without_tables_says_what_is_missing() {
     assert!(html.contains("the case has impacts = false") && html.contains("the case has fates = false"));
     assert!(!folder.path().join("out/trajectories.svg").exists());
 }
+
+#[test]
+fn many_paths_are_all_recorded_and_a_hundred_of_them_drawn() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let case = text(Path::new(MANY)).replace("[output]\n", "[output]\ntrajectories = 450\nimpacts = false\n");
+    std::fs::write(folder.path().join("case.toml"), case).expect("a file");
+    assert!(carom(folder.path(), "run case.toml --out out").status.success());
+    let at = |name: &str| text(&folder.path().join("out").join(name));
+    assert_eq!(at("trajectories.csv").lines().skip(1).filter_map(|l| l.split(',').next()).last(), Some("449"));
+    let note = "100 of 450 recorded paths";
+    assert!(at("trajectories.svg").contains(note));
+    assert!(at("report.html").contains(&format!("{note}, chosen evenly by particle number")));
+    assert!(at("trajectories.svg").matches("<polyline").count() < 200);
+}
+
+#[test]
+fn doubts_about_impacts_are_told_and_reported() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let case = text(Path::new(MANY)).replace("friction = 0.2", "friction = 0.2\nroughness = \"1 nm\"");
+    std::fs::write(folder.path().join("case.toml"), case).expect("a file");
+    let out = carom(folder.path(), "run case.toml --out out");
+    let said = String::from_utf8_lossy(&out.stdout);
+    assert!(said.contains("impacts beyond what their law is good for: roughness-extrapolated "), "{said}");
+    let html = text(&folder.path().join("out/report.html"));
+    assert!(html.contains("roughness-extrapolated</td>") && html.contains("Doubts: "));
+}
+
+#[test]
+fn a_case_without_gravity_is_told_so_once() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (gravity, note) in [("", "note: no gravity: [forces] gives none\n"), ("gravity = [0, 0, 0]\n", "")] {
+        let case = text(Path::new(CASE)).replace("gravity = [\"0 m/s2\", \"-9.81 m/s2\", \"0 m/s2\"]\n", gravity);
+        std::fs::write(folder.path().join("case.toml"), case).expect("a file");
+        let out = carom(folder.path(), "run case.toml");
+        assert!(out.status.success());
+        assert_eq!(String::from_utf8_lossy(&out.stderr), note);
+    }
+}

@@ -71,7 +71,23 @@ fn mistakes_name_file_and_line_and_write_nothing() {
     fails(&run, "lab/dahneke-1975.toml:");
     std::fs::write(&toml, text).expect("a file");
     std::fs::write(folder.path().join("lab/dahneke-1975.csv"), "speed,restitution\n2,0.5\n0,0.5\n").expect("a file");
-    fails(&run, "dahneke-1975.csv:3: ");
+    fails(&run, "dahneke-1975.csv:3:1: ");
     std::fs::write(folder.path().join("taken"), "").expect("a file");
     fails(&["validate", "--out", "taken"], "--out taken: a file is there");
+}
+
+#[test]
+fn points_find_their_experiment_by_name() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let csv = "# made up, to test the reading\nspeed,restitution\n20,0.75\n";
+    for name in ["dahneke-1975.csv", "dahneke-1973.csv"] {
+        std::fs::write(folder.path().join(name), csv).expect("a file");
+    }
+    let out = carom(folder.path(), &["validate", "--points", "dahneke-1975.csv"]);
+    let text = String::from_utf8_lossy(&out.stdout).into_owned();
+    assert!(text.lines().any(|l| l.contains("dahneke-1975") && l.contains("measured data")), "{text}");
+    let out = carom(folder.path(), &["validate", "--points", "dahneke-1973.csv"]);
+    let said = String::from_utf8_lossy(&out.stderr).into_owned();
+    assert_eq!(out.status.code(), Some(2), "{said}");
+    assert!(said.contains("no experiment 'dahneke-1973'; did you mean dahneke-1975?"), "{said}");
 }

@@ -50,7 +50,14 @@ impl<'a> Model<'a> {
     }
 }
 
-fn meet(wall: &WallLaw, quantity: Quantity, speed: f64, angle_deg: f64, d: f64) -> Result<f64, carom::ImpactError> {
+/// What a law gives for an impact at `speed` (m/s), `angle_deg` from the surface, of a sphere of diameter `d` (m) without spin.
+pub(crate) fn meet(
+    wall: &WallLaw,
+    quantity: Quantity,
+    speed: f64,
+    angle_deg: f64,
+    d: f64,
+) -> Result<f64, carom::ImpactError> {
     let (s, c) = if angle_deg == 90.0 { (1.0, 0.0) } else { angle_deg.to_radians().sin_cos() };
     let out = wall.impact(&Impact::new(d, [speed * c, -speed * s, 0.0], [0.0, 1.0, 0.0]))?;
     Ok(match quantity {

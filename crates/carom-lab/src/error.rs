@@ -1,10 +1,10 @@
-//! What can be wrong with an experiment's files or the report's folder.
+//! What can be wrong with an experiment's files, the data of a fit, or the report's folder.
 
 use carom::SpecError;
 use carom_report::ReportError;
 use std::path::PathBuf;
 
-/// Why a validation stops.
+/// Why a validation or a fit stops.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum LabError {
@@ -21,6 +21,19 @@ pub enum LabError {
     /// A file of points is wrong: the message names file, line and value.
     #[error("{0}")]
     Points(String),
+    /// A file of points or of laws is wrong, with the place in its text.
+    #[error("{}", .error.located(.name, .text))]
+    Data {
+        /// Name of the file.
+        name: String,
+        /// Its text.
+        text: String,
+        /// What is wrong, where.
+        error: Box<SpecError>,
+    },
+    /// What was asked of a fit makes no sense for its law or its data.
+    #[error("{0}")]
+    Fit(SpecError),
     /// A file or folder cannot be read or written.
     #[error("{}: {source}", .path.display())]
     File {

@@ -9,6 +9,8 @@
 pub mod compare;
 pub mod error;
 pub mod experiment;
+pub mod export;
+pub mod fit;
 pub mod identities;
 mod library;
 pub mod plots;

@@ -76,18 +76,26 @@ fn mistakes_are_named_with_their_line() {
         (
             "wall-1990",
             "speed,restitution\n1,0.9\n",
-            Some("w.csv:2: the point fits several panels; name one in a column panel: silicon, molybdenum, mica"),
+            Some("w.csv:2:1: the point fits several panels; name one in a column panel: silicon, molybdenum, mica"),
         ),
         (
             "wall-1990",
             "speed,restitution,panel\n1,0.9,silikon\n",
-            Some("w.csv:2: no panel 'silikon'; the experiment has silicon, molybdenum, mica"),
+            Some("w.csv:2:1: no panel 'silikon'; the experiment has silicon, molybdenum, mica"),
         ),
-        ("dahneke-1975", "speed,restitution\n1,0.9\n-1,0.9\n", Some("w.csv:3: a point needs a positive speed in m/s")),
-        ("dahneke-1975", "speed,restitution\n1,high\n", Some("w.csv:2: ")),
-        ("dahneke-1975", "speed,e\n1,0.9\n", Some("unknown field `e`")),
-        ("dahneke-1975", "speed,restitution,angle\n1,0.9,120\n", Some("w.csv:2: angle 120")),
-        ("dahneke-1975", "speed,restitution,diameter\n1,0.9,1.27\n", Some("w.csv:2: diameter 1.27: metres are wanted")),
+        (
+            "dahneke-1975",
+            "speed,restitution\n1,0.9\n-1,0.9\n",
+            Some("w.csv:3:1: speed -1; a point needs a positive speed in m/s"),
+        ),
+        ("dahneke-1975", "speed,restitution\n1,high\n", Some("w.csv:2:3: restitution 'high'; a number is wanted")),
+        ("dahneke-1975", "speed,e\n1,0.9\n", Some("w.csv:1:7: unknown column 'e'")),
+        ("dahneke-1975", "speed,restitution,angle\n1,0.9,120\n", Some("w.csv:2:7: angle 120")),
+        (
+            "dahneke-1975",
+            "speed,restitution,diameter\n1,0.9,1.27\n",
+            Some("w.csv:2:7: diameter 1.27; metres are wanted"),
+        ),
         ("dahneke-1975", "# nothing\nspeed,restitution\n", Some("w.csv: no points")),
     ];
     for (name, csv, wanted) in wrong {

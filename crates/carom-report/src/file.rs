@@ -57,6 +57,14 @@ pub(crate) fn write_whole(target: &Path, bytes: &[u8]) -> Result<(), ReportError
     file.commit()
 }
 
+/// Writes a text file, whole or not at all.
+///
+/// # Errors
+/// A place that cannot be written.
+pub fn write_text(target: &Path, text: &str) -> Result<(), ReportError> {
+    write_whole(target, text.as_bytes())
+}
+
 /// The path's extension in lower case, empty when there is none.
 pub(crate) fn extension(path: &Path) -> String {
     path.extension().and_then(OsStr::to_str).unwrap_or_default().to_ascii_lowercase()

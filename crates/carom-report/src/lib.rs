@@ -13,6 +13,7 @@
 
 mod error;
 mod file;
+pub use file::write_text;
 pub mod html;
 mod number;
 pub use number::significant;
@@ -22,4 +23,4 @@ pub mod table;
 pub use error::ReportError;
 pub use html::Report;
 pub use plot::{Axis, Color, HeatMap, Plot, Series};
-pub use table::{Cell, Column, Field, Format, Kind, Schema, Table, TableReader, TableWriter, Values};
+pub use table::{Cell, Column, Field, Format, Kind, Row, RowReader, Schema, Table, TableReader, TableWriter, Values};

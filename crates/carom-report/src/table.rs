@@ -22,11 +22,13 @@ mod json;
 mod parquet;
 mod parquet_reader;
 mod reader;
+mod rows;
 mod text;
 mod values;
 mod writer;
 
 pub use reader::TableReader;
+pub use rows::{Row, RowReader};
 pub(crate) use text::column_cells;
 pub use values::{Cell, Kind, Values};
 pub use writer::{Format, TableWriter, Target};
@@ -238,6 +240,12 @@ impl Table {
     /// Removes the rows, keeps the columns (and their memory).
     pub fn clear(&mut self) {
         self.columns.iter_mut().for_each(|c| c.values.truncate(0));
+    }
+
+    /// Keeps the rows of which `keep` holds, told by their places.
+    fn retain(&mut self, keep: impl Fn(usize) -> bool) {
+        let kept: Vec<bool> = (0..self.rows()).map(keep).collect();
+        self.columns.iter_mut().for_each(|c| c.values.retain(&kept));
     }
 
     fn truncate(&mut self, rows: usize) {

@@ -295,3 +295,34 @@ fn a_file_of_something_else_is_refused_with_its_place() {
     let bad = reader.next_batch().unwrap_err().to_string();
     assert!(bad.contains("line 3: 'x' in column \"time\""), "{bad}");
 }
+
+#[test]
+fn a_sample_is_the_same_rows_of_csv_and_parquet() {
+    let folder = tempfile::tempdir().unwrap();
+    let rows = 150_000_u64;
+    let sampled = |name: &str, one_in: u64| {
+        let path = folder.path().join(name);
+        Table::new([Column::count("particle", 0..rows), Column::float("time", "s", (0..rows).map(|i| i as f64))])
+            .unwrap()
+            .write(&path)
+            .unwrap();
+        let mut reader = TableReader::open(&path, vec![Field::count("particle")]).unwrap().one_in(one_in);
+        let mut taken: Vec<u64> = Vec::new();
+        while let Some(batch) = reader.next_batch().unwrap() {
+            let Values::Count(v) = &batch.columns()[0].values else { unreachable!() };
+            taken.extend(v.iter().flatten());
+        }
+        taken
+    };
+    for one_in in [0, 1] {
+        assert!(sampled("table.csv", one_in).into_iter().eq(0..rows));
+    }
+    let taken = sampled("table.csv", 7);
+    assert!(taken == sampled("table.parquet", 7));
+    // four standard errors of a binomial count; the even rows are half of them
+    let count = |even: u64| taken.iter().filter(|i| *i % 2 == even).count() as f64;
+    for even in [0, 1] {
+        assert!((count(even) - 75_000.0 / 7.0).abs() < 4.0 * (75_000.0 * 6.0 / 49.0_f64).sqrt(), "{}", count(even));
+    }
+    assert!(sampled("table.parquet", 1_000_000_000).is_empty());
+}

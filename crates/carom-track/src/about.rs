@@ -16,6 +16,8 @@ pub struct About {
     pub planes: Vec<AboutPlane>,
     /// Edges of the size bins that were asked for, m.
     pub size_bins: Vec<f64>,
+    /// Particles whose paths are recorded, from number 0 on.
+    pub trajectories: u64,
     /// Injections, in the order of their particles' numbers.
     pub injections: Vec<AboutInjection>,
 }
@@ -61,6 +63,7 @@ impl About {
             text: case.text.clone(),
             planes: planes.collect(),
             size_bins: case.bins.sizes.clone(),
+            trajectories: case.trajectories.min(case.count()),
             injections: injections.collect(),
         }
     }

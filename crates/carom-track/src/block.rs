@@ -2,11 +2,11 @@
 
 use crate::case::Case;
 use crate::record::{End, ImpactRecord, Sink};
+use crate::rows::{Rows, quoted};
 use crate::summary::Summary;
 use crate::tables::{FATES, IMPACTS, LAYOUTS, TRAJECTORIES};
 use crate::tracker::Particle;
 use crate::vector::Vec3;
-use serde::Serialize;
 use std::ops::Range;
 
 /// Particles in a block. Results do not depend on it; memory and the grain of a checkpoint do.
@@ -18,32 +18,6 @@ pub(crate) struct Block {
     pub summary: Summary,
     /// Rows of each table, as CSV.
     pub rows: [Vec<u8>; LAYOUTS.len()],
-}
-
-/// A row of `impacts.csv`, columns in groups.
-#[derive(Serialize)]
-struct ImpactRow<'a> {
-    particle: u64,
-    time_and_place: [f64; 4],
-    wall: &'a str,
-    incoming: [f64; 4],
-    restitution: Option<f64>,
-    impulse_ratio: Option<f64>,
-    fate: &'static str,
-    outgoing: [f64; 3],
-    weight: f64,
-    normal: [f64; 3],
-    energy: [f64; 8],
-}
-
-/// A row of `fates.csv`, columns in groups.
-#[derive(Serialize)]
-struct FateRow<'a> {
-    particle: u64,
-    words: [&'a str; 3],
-    time_and_place: [f64; 4],
-    size: [f64; 3],
-    impacts: u64,
 }
 
 /// One point of a recorded path.
@@ -120,17 +94,26 @@ pub(crate) fn track(case: &Case, numbers: Range<u64>, wanted: Wanted) -> Block {
     impacts.sort_by_key(|i| i.particle);
     points.sort_by_key(|p| p.0);
     ends.sort_by_key(|e| e.particle.number);
-    let walls: Vec<&str> = case.domain.walls().iter().map(|w| w.name.as_str()).collect();
-    let wall = |w: usize| walls.get(w).copied().unwrap_or_default();
-    let hits = |particle: u64| hits.get((particle - first) as usize).copied().unwrap_or_default();
-    let mut tables = Wanted::default().map(|_| Vec::new());
-    tables[IMPACTS] = rows(impacts.iter().map(|i| impact_row(i, wall(i.wall))));
-    tables[FATES] = rows(ends.iter().map(|e| {
-        let injection = case.injections.get(e.particle.injection).map_or("", |i| i.name.as_str());
-        fate_row(e, injection, e.wall.map_or("", wall), hits(e.particle.number))
-    }));
-    tables[TRAJECTORIES] = rows(points.iter());
-    Block { summary, rows: tables }
+    let walls: Vec<String> = case.domain.walls().iter().map(|w| quoted(&w.name)).collect();
+    let injections: Vec<String> = case.injections.iter().map(|i| quoted(&i.name)).collect();
+    fn word(words: &[String], i: usize) -> &str {
+        words.get(i).map_or("", String::as_str)
+    }
+    let mut tables = [Rows::default(), Rows::default(), Rows::default()];
+    for i in &impacts {
+        impact_row(&mut tables[IMPACTS], i, word(&walls, i.wall));
+    }
+    for e in &ends {
+        let hits = hits.get((e.particle.number - first) as usize).copied().unwrap_or_default();
+        let wall = e.wall.map_or("", |w| word(&walls, w));
+        fate_row(&mut tables[FATES], e, word(&injections, e.particle.injection), wall, hits);
+    }
+    for (particle, values) in &points {
+        tables[TRAJECTORIES].count(*particle);
+        tables[TRAJECTORIES].floats(*values);
+        tables[TRAJECTORIES].end();
+    }
+    Block { summary, rows: tables.map(Rows::into_bytes) }
 }
 
 /// A summary of nothing.
@@ -138,42 +121,31 @@ pub(crate) fn empty(case: &Case) -> Summary {
     Summary::new(&case.title, case.domain.walls().iter().map(|w| w.name.clone()), &case.bins)
 }
 
-fn rows<R: Serialize>(rows: impl Iterator<Item = R>) -> Vec<u8> {
-    let mut writer = csv::WriterBuilder::new().has_headers(false).from_writer(Vec::new());
-    for row in rows {
-        // a vector in memory takes every row
-        let _ = writer.serialize(row);
-    }
-    writer.into_inner().unwrap_or_default()
+fn impact_row(row: &mut Rows, i: &ImpactRecord, wall: &str) {
+    row.count(i.particle);
+    row.float(i.time);
+    row.floats(i.position);
+    row.word(wall);
+    row.floats([i.diameter, i.normal_speed_in, i.tangential_speed_in, i.spin_in, i.restitution, i.impulse_ratio]);
+    row.word(i.event.name());
+    row.floats([i.normal_speed_out, i.tangential_speed_out, i.spin_out, i.weight]);
+    row.floats(i.normal);
+    row.floats(i.energy.named().map(|(_, share)| share));
+    row.words(i.validity.codes());
+    row.end();
 }
 
-fn impact_row<'a>(i: &ImpactRecord, wall: &'a str) -> ImpactRow<'a> {
-    let known = |v: f64| (!v.is_nan()).then_some(v);
-    let [x, y, z] = i.position;
-    ImpactRow {
-        particle: i.particle,
-        time_and_place: [i.time, x, y, z],
-        wall,
-        incoming: [i.diameter, i.normal_speed_in, i.tangential_speed_in, i.spin_in],
-        restitution: known(i.restitution),
-        impulse_ratio: known(i.impulse_ratio),
-        fate: i.event.name(),
-        outgoing: [i.normal_speed_out, i.tangential_speed_out, i.spin_out],
-        weight: i.weight,
-        normal: i.normal,
-        energy: i.energy.named().map(|(_, share)| share),
+fn fate_row(row: &mut Rows, e: &End, injection: &str, wall: &str, impacts: u64) {
+    let p = &e.particle;
+    row.count(p.number);
+    for word in [injection, e.fate.name(), wall] {
+        row.word(word);
     }
-}
-
-fn fate_row<'a>(e: &End, injection: &'a str, wall: &'a str, impacts: u64) -> FateRow<'a> {
-    let (p, [x, y, z]) = (&e.particle, e.position);
-    FateRow {
-        particle: p.number,
-        words: [injection, e.fate.name(), wall],
-        time_and_place: [e.time, x, y, z],
-        size: [p.diameter, p.weight, p.mass()],
-        impacts,
-    }
+    row.float(e.time);
+    row.floats(e.position);
+    row.floats([p.diameter, p.weight, p.mass()]);
+    row.count(impacts);
+    row.end();
 }
 
 #[cfg(test)]
@@ -184,11 +156,11 @@ mod tests {
     #[test]
     fn headers_and_rows_have_as_many_columns() {
         let names: Vec<String> = LAYOUTS[IMPACTS].schema().into_iter().map(|f| f.name).collect();
-        assert_eq!(names.len(), 10 + 10 + 8);
+        assert_eq!(names.len(), 10 + 10 + 8 + 1);
         let energies = carom::Energy::default().named().map(|(name, _)| name);
-        assert_eq!(names[20..], energies);
+        assert_eq!(names[20..28], energies);
         assert_eq!(LAYOUTS[TRAJECTORIES].schema().len(), 11);
         assert_eq!(LAYOUTS[FATES].header(), "particle,injection,fate,wall,time,x,y,z,diameter,weight,mass,impacts\n");
-        assert_eq!(Fate::ALL.map(|f| f as usize), [0, 1, 2, 3, 4]);
+        assert_eq!(Fate::ALL.map(|f| f as usize), [0, 1, 2, 3, 4, 5]);
     }
 }

@@ -4,8 +4,10 @@
 //! the nearest known one), walls that contradict each other, injections inside a wall, a run that nothing would end.
 
 mod check;
+mod files;
 mod flow;
 mod injection;
+mod removal;
 mod text;
 mod wall;
 
@@ -20,6 +22,7 @@ use crate::tracker::{Behavior, Particle, Settings, SettleHeight, Tracker};
 use carom::material::Library;
 use carom::{Impact, SpecError};
 use check::{positive, wrong};
+use files::Files;
 use std::path::{Path, PathBuf};
 use text::{CaseText, OutputText, RunText, Si};
 
@@ -53,9 +56,11 @@ pub struct Case {
     pub vtk: bool,
     /// How deposits are sorted.
     pub bins: Bins,
+    /// What the case leaves unsaid that one might take for granted.
+    pub notes: Vec<String>,
     /// Its text.
     pub text: String,
-    /// A number that tells this case from others, for resuming.
+    /// A number that tells this case from others, for resuming: of its text, of the files it names, and of its materials.
     pub fingerprint: u64,
 }
 
@@ -71,10 +76,10 @@ impl Case {
     /// What is wrong, with its place in `text` ([`CaseError::located`] puts the line in front).
     pub fn from_toml(text: &str, name: &Path, library: &Library) -> Result<Self, CaseError> {
         let read: CaseText = toml::from_str(text)?;
-        let folder = name.parent().unwrap_or(Path::new(""));
+        let files = Files::new(name, text);
         let seed = read.seed.unwrap_or(1);
         let fluid = flow::fluid(read.fluid.as_ref())?;
-        let flow = flow::flow(read.flow.as_ref(), &fluid, folder)?;
+        let flow = flow::flow(read.flow.as_ref(), &fluid, &files)?;
         let dynamics = flow::dynamics(&read.forces, fluid)?;
         let injections = read
             .injection
@@ -87,13 +92,16 @@ impl Case {
         }
         injection::distinct(read.injection.iter().filter_map(|i| i.value.name.as_ref()), "injection")?;
         injection::distinct(read.wall.iter().map(|w| &w.value.name), "wall")?;
-        let walls = read.wall.iter().map(|w| wall::read(w, folder)).collect::<Result<Vec<_>, _>>()?;
+        let walls = read.wall.iter().map(|w| wall::read(w, &files)).collect::<Result<Vec<_>, _>>()?;
         let largest = injections.iter().map(|i| i.largest).fold(0.0, f64::max);
         wall::contradictions(&read.wall, &walls, largest)?;
         let behaviors = read
             .wall
             .iter()
-            .map(|at| wall::behavior(at, &read.law, &injections, library))
+            .map(|at| {
+                let behavior = wall::behavior(at, &read.law, &injections, library)?;
+                removal::with_removal(behavior, &at.value, &flow, &fluid, largest)
+            })
             .collect::<Result<Vec<_>, _>>()?;
         unused_laws(&read, library)?;
         let settings = settings(&read, seed, &behaviors)?;
@@ -101,6 +109,9 @@ impl Case {
         sampled_starts(&walls, &injections, &behaviors)?;
         let output = read.output;
         let bins = bins(&output)?;
+        let weightless = read.forces.gravity.is_none().then(|| "no gravity: [forces] gives none".to_owned());
+        // materials come from a library that may change: what was made of them tells
+        let fingerprint = files.fingerprint().with_value(&behaviors).with_value(&injections).number();
         Ok(Self {
             title: read.title.unwrap_or_default(),
             name: name.to_owned(),
@@ -114,8 +125,9 @@ impl Case {
             fates: output.fates.unwrap_or_default().0,
             vtk: output.vtk.unwrap_or(true),
             bins,
+            notes: weightless.into_iter().collect(),
             text: text.to_owned(),
-            fingerprint: fingerprint(text),
+            fingerprint,
         })
     }
 
@@ -198,7 +210,7 @@ fn sampled_starts(walls: &[Wall], injections: &[Injected], behaviors: &[Behavior
                     .help("a normal points out of the wall into the fluid; a sphere needs one radius of room")
                     .at(injected.place.clone()));
                 }
-                let Behavior::Law(laws) = behavior else { continue };
+                let Some(laws) = behavior.laws() else { continue };
                 let Some(law) = laws.get(index).or(laws.first()) else { continue };
                 let density = Some(start.density);
                 let trial = Impact { density, ..Impact::new(start.diameter, [0.0, -1.0, 0.0], [0.0, 1.0, 0.0]) };
@@ -260,11 +272,6 @@ fn injected_in_the_fluid(walls: &[Wall], injections: &[Injected], behaviors: &[B
         }
     }
     Ok(())
-}
-
-/// FNV-1a of the text: enough to tell an edited case from the one that was interrupted.
-fn fingerprint(text: &str) -> u64 {
-    text.bytes().fold(0xcbf2_9ce4_8422_2325, |h, b| (h ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3))
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use crate::tracker::Particle;
 use crate::vector::Vec3;
+use carom::removal::Mode;
 
 /// How a particle ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -16,11 +17,17 @@ pub enum Fate {
     Escaped,
     /// Still flying when the run ended.
     Airborne,
+    /// Caught by a wall and taken off it again by the flow; where it goes then is not followed.
+    Removed,
 }
 
 impl Fate {
     /// All of them, in the order of the results.
-    pub const ALL: [Self; 5] = [Self::Captured, Self::Settled, Self::Trapped, Self::Escaped, Self::Airborne];
+    pub const ALL: [Self; 6] =
+        [Self::Captured, Self::Settled, Self::Trapped, Self::Escaped, Self::Airborne, Self::Removed];
+
+    /// Those of spheres that end at a wall.
+    pub const AT_WALLS: [Self; 5] = [Self::Captured, Self::Settled, Self::Trapped, Self::Escaped, Self::Removed];
 
     /// The word in results.
     pub fn name(self) -> &'static str {
@@ -30,6 +37,7 @@ impl Fate {
             Self::Trapped => "trapped",
             Self::Escaped => "escaped",
             Self::Airborne => "airborne",
+            Self::Removed => "removed",
         }
     }
 }
@@ -47,6 +55,8 @@ pub enum Event {
     Trap,
     /// It leaves the domain.
     Escape,
+    /// It would stay, but the flow takes it off again.
+    Remove(Mode),
 }
 
 impl Event {
@@ -58,6 +68,9 @@ impl Event {
             Self::Settle => "settle",
             Self::Trap => "trap",
             Self::Escape => "escape",
+            Self::Remove(Mode::Rolling) => "roll-off",
+            Self::Remove(Mode::Sliding) => "slide-off",
+            Self::Remove(Mode::Lifting) => "lift-off",
         }
     }
 }
@@ -99,6 +112,8 @@ pub struct ImpactRecord {
     pub spin_out: f64,
     /// Where the incident energy went, as fractions; all zero where no law decides.
     pub energy: carom::Energy,
+    /// What to mind about the law's answer.
+    pub validity: carom::Validity,
 }
 
 /// How a particle ended.

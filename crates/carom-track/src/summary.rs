@@ -3,6 +3,8 @@
 use crate::deposition::{Bins, Deposition};
 use crate::exact_sum::ExactSum;
 use crate::record::{End, Event, Fate, ImpactRecord};
+use carom::removal::Mode;
+use carom::validity::CODES;
 use serde::Serialize;
 use serde::ser::SerializeMap;
 
@@ -37,7 +39,11 @@ pub struct WallTally {
     /// Rebounds from it.
     pub rebounds: u64,
     /// Ends at it, by fate in the order of [`Fate::ALL`].
-    pub ends: [Amount; 5],
+    pub ends: [Amount; 6],
+    /// How many the flow took off it again by rolling, sliding and lifting.
+    pub removed: [u64; 3],
+    /// Impacts whose outcome carried each validity code, in the order of [`CODES`].
+    pub doubts: [u64; CODES.len()],
 }
 
 /// A run, or a part of one. Parts add up to the whole, to the bit, in any order.
@@ -48,7 +54,7 @@ pub struct Summary {
     /// All that was injected.
     pub injected: Amount,
     /// By fate, in the order of [`Fate::ALL`].
-    pub fates: [Amount; 5],
+    pub fates: [Amount; 6],
     /// By wall.
     pub walls: Vec<WallTally>,
     /// What walls kept, by region and size bin.
@@ -75,6 +81,11 @@ impl Summary {
         self.injected.count - self.fates.iter().map(|f| f.count).sum::<u64>().min(self.injected.count)
     }
 
+    /// The validity codes that impacts carried, and how many did.
+    pub fn doubts(&self) -> impl Iterator<Item = (&'static str, u64)> {
+        counted((0..CODES.len()).map(|i| self.walls.iter().map(|w| w.doubts[i]).sum()))
+    }
+
     pub(crate) fn start(&mut self, mass: f64) {
         self.injected.add(mass);
     }
@@ -83,6 +94,14 @@ impl Summary {
         if let Some(wall) = self.walls.get_mut(impact.wall) {
             wall.impacts += 1;
             wall.rebounds += u64::from(impact.event == Event::Rebound);
+            if let Event::Remove(mode) = impact.event {
+                wall.removed[mode as usize] += 1;
+            }
+            if !impact.validity.is_empty() {
+                for (count, (_, code, _)) in wall.doubts.iter_mut().zip(CODES) {
+                    *count += u64::from(impact.validity.contains(code));
+                }
+            }
         }
     }
 
@@ -104,9 +123,11 @@ impl Summary {
         for (a, b) in self.walls.iter_mut().zip(&other.walls) {
             a.impacts += b.impacts;
             a.rebounds += b.rebounds;
+            a.removed.iter_mut().zip(b.removed).for_each(|(a, b)| *a += b);
             for (a, b) in a.ends.iter_mut().zip(&b.ends) {
                 a.merge(b);
             }
+            a.doubts.iter_mut().zip(b.doubts).for_each(|(a, b)| *a += b);
         }
         self.deposition.merge(&other.deposition);
         self.stalled += other.stalled;
@@ -119,11 +140,18 @@ impl Summary {
     }
 }
 
+/// The codes that occurred, with their counts.
+fn counted(counts: impl Iterator<Item = u64>) -> impl Iterator<Item = (&'static str, u64)> {
+    CODES.iter().map(|(code, _, _)| *code).zip(counts).filter(|(_, count)| *count > 0)
+}
+
 struct Report<'a>(&'a Summary);
 struct Fates<'a>(&'a Summary);
-struct Masses<'a>(&'a [Amount; 5]);
+struct Masses<'a>(&'a [Amount; 6]);
 struct Walls<'a>(&'a [WallTally]);
 struct One<'a>(&'a WallTally);
+struct Modes([u64; 3]);
+struct Doubts<'a>(&'a [(&'static str, u64)]);
 
 impl Serialize for Report<'_> {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
@@ -136,6 +164,7 @@ impl Serialize for Report<'_> {
         map.serialize_entry("masses", &Masses(&s.fates))?;
         map.serialize_entry("walls", &Walls(&s.walls))?;
         map.serialize_entry("stalled", &s.stalled)?;
+        map.serialize_entry("validity", &Doubts(&s.doubts().collect::<Vec<_>>()))?;
         map.end()
     }
 }
@@ -163,16 +192,30 @@ impl Serialize for Walls<'_> {
     }
 }
 
+impl Serialize for Doubts<'_> {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().copied())
+    }
+}
+
 impl Serialize for One<'_> {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(None)?;
         map.serialize_entry("impacts", &self.0.impacts)?;
         map.serialize_entry("rebounds", &self.0.rebounds)?;
-        for fate in [Fate::Captured, Fate::Settled, Fate::Trapped, Fate::Escaped] {
+        for fate in Fate::AT_WALLS {
             let amount = &self.0.ends[fate as usize];
             map.serialize_entry(fate.name(), &amount.count)?;
             map.serialize_entry(&format!("{}_mass", fate.name()), &amount.mass.value())?;
         }
+        map.serialize_entry("removed_by", &Modes(self.0.removed))?;
+        map.serialize_entry("validity", &Doubts(&counted(self.0.doubts.into_iter()).collect::<Vec<_>>()))?;
         map.end()
+    }
+}
+
+impl Serialize for Modes {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(Mode::ALL.iter().zip(self.0).map(|(mode, count)| (mode.name(), count)))
     }
 }

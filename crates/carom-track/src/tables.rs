@@ -87,6 +87,7 @@ pub(crate) const LAYOUTS: [Layout; 3] = [
             ("friction", "", Float),
             ("captured", "", Float),
             ("kept", "", Float),
+            ("validity", "", Text),
         ],
     },
     Layout {

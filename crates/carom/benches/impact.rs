@@ -61,6 +61,7 @@ fn scalar(c: &mut Criterion) {
         ("ea", format!("normal = \"ea\"\n{DAMPED}")),
         ("eap", "normal = \"eap\"\n".to_owned()),
         ("ea, micro-slip", format!("normal = \"ea\"\n{DAMPED}tangential = \"micro-slip\"\n")),
+        ("ea, rough", format!("normal = \"ea\"\n{DAMPED}roughness_angle = \"5 deg\"\n")),
         ("constant", "normal = \"constant\"\nrestitution = 0.9\n".to_owned()),
         ("resolved", format!("normal = \"resolved\"\n{DAMPED}")),
     ] {
@@ -70,6 +71,7 @@ fn scalar(c: &mut Criterion) {
                 let mut impact =
                     Impact::new(diameter[i], [0.6 * tangential[i], -normal[i], 0.8 * tangential[i]], [0.0, 1.0, 0.0]);
                 impact.spin = [0.5 * spin[i], 0.3 * spin[i], -spin[i]];
+                impact.draws = [1, 2, 3, 4].map(|k| ((i * 7_919 + k * 104_729) % 65_521) as f64 / 65_521.0);
                 impact
             })
             .collect();

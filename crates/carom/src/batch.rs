@@ -4,6 +4,9 @@
 //! along the tangential speed) and diameter in; normal and tangential speed and spin out. The loops are compiled for AVX-512, AVX2 and
 //! the plain machine; the best is chosen at run time and changes no bit of the result.
 //!
+//! A wall that scatters ([`crate::scatter`]) goes row by row, a microsecond or two each: [`WallLaw::impact_batch`] then takes every
+//! draw at ½, [`WallLaw::impact_batch_drawn`] the draws it is given, and the columns hold the motion in the incoming plane.
+//!
 //! ```
 //! use carom::{batch::{Incidence, Rebound}, material::Library, spec::parse_law};
 //! let law = parse_law("sphere = \"copper\"\nsurface = \"aluminium\"\nnormal = \"ea\"\nfriction = 0.2\n")?;
@@ -17,8 +20,11 @@
 
 mod kernel;
 
-use crate::impact::{Energy, Fate, Impact, ImpactError};
+use crate::impact::{Energy, Fate, Impact, ImpactError, Outcome};
 use crate::wall::WallLaw;
+
+/// The draws of an impact that says nothing of them.
+const MIDDLE: [f64; 4] = [0.5; 4];
 
 /// Columns in, all of one length: the spheres are of the law's own density, the wall is at rest.
 #[derive(Clone, Copy, Debug)]
@@ -129,6 +135,60 @@ impl WallLaw {
         incidence: &Incidence,
         rebound: &mut Rebound,
     ) -> Result<(), BatchError> {
+        self.check_lengths(incidence, rebound)?;
+        if self.scatter.is_some() {
+            return self.by_row(incidence, |_| MIDDLE, rebound);
+        }
+        let all_fine = kernel::run(&kernel::Machine::new(set), self, incidence, rebound);
+        if let Some(energy) = rebound.energy.as_deref_mut() {
+            for (i, out) in energy.iter_mut().enumerate() {
+                *out = self.planar(incidence, i, MIDDLE).map_or(Energy::default(), |o| o.energy);
+            }
+        }
+        if all_fine { Ok(()) } else { self.first_bad_row(incidence) }
+    }
+
+    /// As [`WallLaw::impact_batch`], with the [`Impact::draws`] of each row for walls that scatter. What leaves the plane of incidence
+    /// is not in the columns: tangential speed and spin are the components in it and about its normal.
+    ///
+    /// # Errors
+    /// As [`WallLaw::impact_batch`].
+    pub fn impact_batch_drawn(
+        &self,
+        incidence: &Incidence,
+        draws: &[[f64; 4]],
+        rebound: &mut Rebound,
+    ) -> Result<(), BatchError> {
+        self.check_lengths(incidence, rebound)?;
+        if draws.len() != incidence.normal.len() {
+            return Err(BatchError::Lengths);
+        }
+        self.by_row(incidence, |i| draws[i], rebound)
+    }
+
+    fn by_row(&self, rows: &Incidence, draws: impl Fn(usize) -> [f64; 4], out: &mut Rebound) -> Result<(), BatchError> {
+        let mut bad = Ok(());
+        for index in 0..rows.normal.len() {
+            let met = self.planar(rows, index, draws(index));
+            let [normal, tangential, spin, e, ratio] = met.as_ref().map_or([f64::NAN; 5], columns);
+            (out.normal[index], out.tangential[index], out.spin[index]) = (normal, tangential, spin);
+            if let Some(column) = out.restitution.as_deref_mut() {
+                column[index] = e;
+            }
+            if let Some(column) = out.impulse_ratio.as_deref_mut() {
+                column[index] = ratio;
+            }
+            if let Some(column) = out.energy.as_deref_mut() {
+                column[index] = met.as_ref().map_or(Energy::default(), |o| o.energy);
+            }
+            if let Err(error) = met {
+                bad = bad.and(Err(BatchError::Row { index, error }));
+            }
+        }
+        bad
+    }
+
+    fn check_lengths(&self, incidence: &Incidence, rebound: &Rebound) -> Result<(), BatchError> {
         let n = incidence.normal.len();
         let ins = [incidence.tangential.len(), incidence.spin.len(), incidence.diameter.len()];
         let outs = [rebound.normal.len(), rebound.tangential.len(), rebound.spin.len()];
@@ -140,25 +200,20 @@ impl WallLaw {
         if ins.into_iter().chain(outs).chain(optional.into_iter().flatten()).any(|length| length != n) {
             return Err(BatchError::Lengths);
         }
-        let all_fine = kernel::run(&kernel::Machine::new(set), self, incidence, rebound);
-        if let Some(energy) = rebound.energy.as_deref_mut() {
-            for (i, out) in energy.iter_mut().enumerate() {
-                *out = self.planar(incidence, i).map_or(Energy::default(), |o| o.energy);
-            }
-        }
-        if all_fine { Ok(()) } else { self.first_bad_row(incidence) }
+        Ok(())
     }
 
     /// Row `i` as one impact on a wall with normal +y.
-    fn planar(&self, rows: &Incidence, i: usize) -> Result<crate::Outcome, ImpactError> {
+    fn planar(&self, rows: &Incidence, i: usize, draws: [f64; 4]) -> Result<Outcome, ImpactError> {
         let mut impact = Impact::new(rows.diameter[i], [rows.tangential[i], -rows.normal[i], 0.0], [0.0, 1.0, 0.0]);
         impact.spin = [0.0, 0.0, -rows.spin[i]];
+        impact.draws = draws;
         self.impact(&impact)
     }
 
     fn first_bad_row(&self, rows: &Incidence) -> Result<(), BatchError> {
         for index in 0..rows.normal.len() {
-            if let Err(error) = self.planar(rows, index) {
+            if let Err(error) = self.planar(rows, index, MIDDLE) {
                 return Err(BatchError::Row { index, error });
             }
         }
@@ -170,10 +225,14 @@ impl WallLaw {
     /// # Errors
     /// As [`WallLaw::impact`].
     pub fn impact_row(&self, rows: &Incidence, i: usize) -> Result<[f64; 5], ImpactError> {
-        let out = self.planar(rows, i)?;
-        Ok(match out.fate {
-            Fate::Capture => [0.0, 0.0, 0.0, 0.0, f64::NAN],
-            Fate::Rebound => [out.velocity[1], out.velocity[0], -out.spin[2], out.restitution, out.impulse_ratio],
-        })
+        Ok(columns(&self.planar(rows, i, MIDDLE)?))
+    }
+}
+
+/// An outcome as a row: normal and tangential speed, spin, restitution, impulse ratio.
+fn columns(out: &Outcome) -> [f64; 5] {
+    match out.fate {
+        Fate::Capture => [0.0, 0.0, 0.0, 0.0, f64::NAN],
+        Fate::Rebound => [out.velocity[1], out.velocity[0], -out.spin[2], out.restitution, out.impulse_ratio],
     }
 }

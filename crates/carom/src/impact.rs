@@ -21,7 +21,7 @@ pub struct Impact {
     pub normal: Vec3,
     /// Velocity of the wall at the contact point, m/s.
     pub wall_velocity: Vec3,
-    /// Uniform draws in [0, 1) for laws that scatter; the caller owns the randomness. No law uses them yet.
+    /// Uniform draws in [0, 1) for walls that scatter ([`crate::scatter`]); the caller owns the randomness. Smooth walls use none.
     pub draws: [f64; 4],
 }
 
@@ -98,7 +98,8 @@ pub struct Outcome {
     pub velocity: Vec3,
     /// Angular velocity after the impact, rad/s.
     pub spin: Vec3,
-    /// e, 0 for a capture.
+    /// e, 0 for a capture; at most 1, but for a wall that scatters ([`crate::scatter`]): there it takes the speeds normal to the mean
+    /// wall and may exceed 1 at shallow angles.
     pub restitution: f64,
     /// μ = |Δv_t|/((1 + e)v_n); NaN for a capture.
     pub impulse_ratio: f64,
@@ -124,8 +125,11 @@ pub enum ImpactError {
     /// The density is not positive, or not within a factor of 1000 of the law's sphere.
     #[error("the density must be positive and within a factor of 1000 of the law's sphere")]
     Density,
-    /// A velocity, spin or normal is NaN or infinite, or the motion is beyond about 1e9 m/s.
-    #[error("velocities and spins must be finite and below 1e9 m/s at the surface, the normal finite and not zero")]
+    /// A velocity, spin or normal is NaN or infinite, the motion is beyond about 1e9 m/s, or a wall that scatters is given a draw outside
+    /// [0, 1).
+    #[error(
+        "velocities and spins must be finite and below 1e9 m/s at the surface, the normal finite and not zero, draws in [0, 1)"
+    )]
     NotFinite,
     /// The concave surface is not wider than the sphere.
     #[error("the surface is concave and its radius of curvature must exceed the sphere's radius")]

@@ -19,8 +19,8 @@
 //! ```
 //!
 //! Where to look: one file per mechanism in [`normal`] and [`tangential`]; the equation of motion in [`resolved`]; materials and their
-//! sources in [`material`]; what removes a
-//! captured sphere in [`removal`]; what a result's doubts mean in [`validity`]. SI units throughout; angles from the surface.
+//! sources in [`material`]; rough walls that scatter in
+//! [`scatter`]; what removes a captured sphere in [`removal`]; what a result's doubts mean in [`validity`]. SI units throughout; angles from the surface.
 
 pub mod batch;
 pub mod error;
@@ -32,6 +32,7 @@ pub mod pair;
 pub mod removal;
 pub mod resolved;
 pub mod roughness;
+pub mod scatter;
 pub mod spec;
 pub mod tangential;
 pub mod units;

@@ -42,6 +42,7 @@
 
 use crate::impact::ImpactError;
 use crate::wall::WallLaw;
+use libm::cbrt;
 use std::f64::consts::PI;
 
 /// Drag near the wall over Stokes' (O'Neill 1968).
@@ -106,6 +107,50 @@ pub struct Removal {
     pub lifting: Criterion,
 }
 
+/// A way in which a sphere leaves its place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mode {
+    /// It rolls about the rim of its contact.
+    Rolling,
+    /// It slides on its contact.
+    Sliding,
+    /// It is lifted.
+    Lifting,
+}
+
+impl Mode {
+    /// All of them, in the order of the results.
+    pub const ALL: [Self; 3] = [Self::Rolling, Self::Sliding, Self::Lifting];
+
+    /// The word in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Rolling => "rolling",
+            Self::Sliding => "sliding",
+            Self::Lifting => "lifting",
+        }
+    }
+}
+
+impl Removal {
+    /// When a mode sets in; `None` for sliding without a friction coefficient.
+    pub fn of(&self, mode: Mode) -> Option<Criterion> {
+        match mode {
+            Mode::Rolling => Some(self.rolling),
+            Mode::Sliding => self.sliding,
+            Mode::Lifting => Some(self.lifting),
+        }
+    }
+
+    /// The mode that removes the sphere at a friction velocity (m/s): of those that are allowed, the one that sets in first, if the
+    /// flow is faster than that.
+    pub fn mode(&self, allowed: impl IntoIterator<Item = Mode>, friction_velocity: f64) -> Option<Mode> {
+        let onsets = allowed.into_iter().filter_map(|m| self.of(m).map(|c| (m, c.friction_velocity)));
+        let first = onsets.min_by(|a, b| a.1.total_cmp(&b.1))?;
+        (friction_velocity > first.1).then_some(first.0)
+    }
+}
+
 impl Attached {
     /// Pull-off force, N.
     pub fn pull_off_force(&self) -> f64 {
@@ -114,14 +159,14 @@ impl Attached {
 
     /// Contact radius without a load, m.
     pub fn contact_radius(&self) -> f64 {
-        (4.0 * self.effective_radius * self.pull_off_force() / self.stiffness).cbrt()
+        cbrt(4.0 * self.effective_radius * self.pull_off_force() / self.stiffness)
     }
 
     /// The greatest moment that adhesion bears, N m. Under a pull P = pF_po the contact radius is (r F_po/K)^{1/3} (1 + √(1 − p))^{2/3},
     /// and P a is greatest at p = 15/16.
     pub fn adhesion_moment(&self) -> f64 {
         let force = self.pull_off_force();
-        15.0 / 16.0 * 1.25f64.cbrt().powi(2) * force * (self.effective_radius * force / self.stiffness).cbrt()
+        15.0 / 16.0 * cbrt(1.25 * 1.25) * force * cbrt(self.effective_radius * force / self.stiffness)
     }
 
     /// The friction velocities that remove it.
@@ -138,7 +183,7 @@ impl Attached {
             adhesion_moment: self.adhesion_moment(),
             rolling: criterion((moment / (0.5 * DRAG + TORQUE)).sqrt()),
             sliding: self.friction.map(|f| criterion(sliding(f, force))),
-            lifting: criterion((force / LIFT_TOUCHING).sqrt().sqrt().max((force / LIFT_SAFFMAN).cbrt())),
+            lifting: criterion((force / LIFT_TOUCHING).sqrt().sqrt().max(cbrt(force / LIFT_SAFFMAN))),
         }
     }
 }
@@ -260,6 +305,18 @@ mod tests {
             close(drag(rolls) * diameter / 2.0 + torque, removal.adhesion_moment, 1e-12);
             assert!(rolls < slides && slides < removal.lifting.friction_velocity);
         }
+    }
+
+    #[test]
+    fn the_first_mode_that_sets_in_removes() {
+        let removal = attached().removal(&AIR);
+        let mode = |allowed: &[Mode], u: f64| removal.mode(allowed.iter().copied(), u);
+        assert_eq!(mode(&Mode::ALL, 1.862), None);
+        assert_eq!(mode(&Mode::ALL, 1.8621), Some(Mode::Rolling));
+        assert_eq!(mode(&Mode::ALL, 20.0), Some(Mode::Rolling));
+        assert_eq!(mode(&[Mode::Lifting], 16.7), None);
+        assert_eq!(mode(&[Mode::Sliding, Mode::Lifting], 16.8), Some(Mode::Sliding));
+        assert_eq!(Attached { friction: None, ..attached() }.removal(&AIR).mode([Mode::Sliding], 1e9), None);
     }
 
     #[test]

@@ -22,73 +22,102 @@
 mod check;
 mod compile;
 mod curve;
+mod named;
 mod normal;
 mod roughness;
 mod tangential;
 mod values;
+mod write;
 
 pub use curve::CurveSpec;
+pub use named::{parse_named_law, parse_only_law};
 pub use normal::{NormalKind, NormalSpec};
 pub use values::{At, CurvatureRadius};
 
-use crate::error::{SpecError, did_you_mean};
+use crate::error::SpecError;
 use crate::material::MaterialRef;
 use crate::resolved::AdhesionMode;
 use crate::roughness::RoughnessModel;
-use crate::units::{InverseSpeed, Length, Number, Pressure, Speed, SurfaceEnergy};
-use std::collections::BTreeMap;
+use crate::units::{Angle, InverseSpeed, Length, Number, Pressure, Speed, SurfaceEnergy};
 
 /// A wall law as written. Everything but `normal` may be absent; what a law needs and lacks is reported by [`LawSpec::compile`].
-#[derive(Clone, Debug, Default, PartialEq, serde::Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, serde::Deserialize, serde::Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct LawSpec {
     /// The sphere's material.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub sphere: Option<At<MaterialRef>>,
     /// The surface's material.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub surface: Option<At<MaterialRef>>,
     /// Normal law.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub normal: Option<At<NormalSpec>>,
     /// Resolved only: when adhesion acts.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub adhesion: Option<At<AdhesionMode>>,
     /// Tangential law; `rolling` when absent, `constant` or `by-angle` when a tangential restitution is given.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub tangential: Option<At<TangentialKind>>,
     /// Coulomb friction coefficient f.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub friction: Option<At<Number>>,
     /// Walton's β₀.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub walton_beta: Option<At<Number>>,
     /// C_R.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub roughness_factor: Option<At<Number>>,
     /// σ_r.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub roughness: Option<At<Length>>,
     /// How C_R follows from σ_r; `rabinovich` when absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub roughness_model: Option<At<RoughnessModel>>,
     /// Radius β of the asperities, for `fuller-tabor`.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub asperity_radius: Option<At<Length>>,
+    /// Δγ, standard deviation of the roughness angle: the wall scatters.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub roughness_angle: Option<At<Angle>>,
     /// C_A.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub adhesion_damping: Option<At<InverseSpeed>>,
     /// C_H.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub hertz_damping: Option<At<InverseSpeed>>,
     /// Radius of curvature r_s of the surface: `"inf"` for flat, negative for concave.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub surface_curvature: Option<At<values::CurvatureRadius>>,
     /// Normal restitution of the constant and by-angle laws.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub restitution: Option<At<CurveSpec>>,
     /// Tangential restitution e_t.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub tangential_restitution: Option<At<CurveSpec>>,
     /// Tabor's fitted yield velocity.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub yield_velocity: Option<At<Speed>>,
     /// Meyer's index n.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub meyer_index: Option<At<Number>>,
     /// Thornton–Ning's limiting peak pressure p_y.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub limiting_pressure: Option<At<Pressure>>,
     /// Interfacial parameter Φ.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub interfacial_parameter: Option<At<Number>>,
     /// Equilibrium spacing z₀.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub equilibrium_spacing: Option<At<Length>>,
     /// Override of the work of adhesion w.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub work_of_adhesion: Option<At<SurfaceEnergy>>,
     /// Override of the stiffness K.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub stiffness: Option<At<Pressure>>,
     /// Override of the plastic constant k.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub plastic_constant: Option<At<Pressure>>,
 }
 
@@ -126,69 +155,6 @@ values::names! {
 /// What is wrong, with its place in `text`.
 pub fn parse_law(text: &str) -> Result<LawSpec, SpecError> {
     toml::from_str(text).map_err(SpecError::from)
-}
-
-#[derive(serde::Deserialize)]
-struct File {
-    #[serde(default)]
-    law: BTreeMap<String, LawSpec>,
-}
-
-/// The laws of a text, none of them read yet.
-#[derive(serde::Deserialize)]
-struct Names {
-    #[serde(default)]
-    law: BTreeMap<String, toml::Spanned<toml::Value>>,
-}
-
-/// Reads the law `name` from a text with `[law.NAME]` tables (a law file or a whole case file; other tables are left alone).
-///
-/// # Errors
-/// A text that cannot be read, a bad law, an unknown name (with the nearest known one).
-///
-/// ```
-/// let text = "[law.glass]\nnormal = \"constant\"\nrestitution = 0.9\nfriction = 0.1\n";
-/// assert!(carom::spec::parse_named_law(text, "glass").is_ok());
-/// assert!(carom::spec::parse_named_law(text, "glas").unwrap_err().to_string().contains("did you mean glass?"));
-/// ```
-pub fn parse_named_law(text: &str, name: &str) -> Result<LawSpec, SpecError> {
-    let found: Names = toml::from_str(text)?;
-    if !found.law.contains_key(name) {
-        let names: Vec<&str> = found.law.keys().map(String::as_str).collect();
-        let near = did_you_mean(name, names.iter().copied()).unwrap_or_default();
-        let known = if names.is_empty() {
-            "the text has no [law.NAME] table".to_owned()
-        } else {
-            format!("known are {}", names.join(", "))
-        };
-        return Err(SpecError::new(format!("no law '{name}'")).help(format!("{near} {known}").trim().to_owned()));
-    }
-    let mut file: File = toml::from_str(text)?;
-    file.law.remove(name).ok_or_else(|| SpecError::new(format!("no law '{name}'")))
-}
-
-/// Reads the one law of a text: its only `[law.NAME]` table or, in a text without such tables, the keys of a law without a header.
-///
-/// # Errors
-/// A text that cannot be read, a bad law, more than one law.
-///
-/// ```
-/// use carom::spec::{parse_law, parse_only_law};
-/// let keys = "normal = \"constant\"\nrestitution = 0.9\nfriction = 0.1\n";
-/// assert!(parse_only_law(keys).is_ok() && parse_only_law(&format!("[law.glass]\n{keys}")).is_ok());
-/// assert!(parse_only_law(&format!("[law.a]\n{keys}[law.b]\n{keys}")).unwrap_err().to_string().contains("a, b"));
-/// ```
-pub fn parse_only_law(text: &str) -> Result<LawSpec, SpecError> {
-    let found: Names = toml::from_str(text)?;
-    let names: Vec<&String> = found.law.keys().collect();
-    match names.as_slice() {
-        [] => parse_law(text),
-        [name] => parse_named_law(text, name),
-        several => {
-            let known = several.iter().map(|n| n.as_str()).collect::<Vec<_>>().join(", ");
-            Err(SpecError::new("the text holds more than one law").help(format!("name one of {known}")))
-        }
-    }
 }
 
 #[cfg(test)]

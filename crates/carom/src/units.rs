@@ -2,7 +2,7 @@
 //!
 //! One type per dimension, each a wrapped `f64` in SI units. A text is a number followed by a product of units
 //! (`kg/m3`, `Pa s`, `m s-1`, `m/s^2`) with SI prefixes; errors name the character where the text goes wrong and say
-//! what would be right. Every type reads from TOML (string or number) and from a command line (`FromStr`).
+//! what would be right. Every type reads from TOML (string or number) and from a command line (`FromStr`), and is written as a bare SI number.
 
 mod parse;
 
@@ -32,13 +32,19 @@ macro_rules! quantities {
             }
         }
 
+        impl serde::Serialize for $name {
+            fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                serializer.serialize_f64(self.0)
+            }
+        }
+
         impl<'de> de::Deserialize<'de> for $name {
             fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
                 struct Text;
                 impl Visitor<'_> for Text {
                     type Value = $name;
                     fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-                        write!(f, "a {} such as \"{}\", or a number in {}", $what, $example, if $si.is_empty() { "no unit" } else { $si })
+                        write!(f, "{} {} such as \"{}\", or a number in {}", parse::article($what), $what, $example, if $si.is_empty() { "no unit" } else { $si })
                     }
                     fn visit_f64<E: de::Error>(self, v: f64) -> Result<$name, E> {
                         if v.is_finite() { Ok($name(v)) } else { Err(E::custom(format!("{v} is not a finite {}", $what))) }

@@ -6,12 +6,14 @@ use crate::normal::ledger::Balance;
 use crate::normal::{Ledger, Losses, Size};
 use crate::pair::Pair;
 use crate::resolved::Resolved;
+use crate::scatter::Scatter;
 use crate::tangential::{Contact, Coulomb, FrictionLaw, Tangential};
 use crate::validity::Validity;
 
 mod checks;
 mod figures;
-mod vector;
+mod rough;
+pub(crate) mod vector;
 
 use checks::ContactLimit;
 pub(crate) use checks::column_ok;
@@ -86,6 +88,8 @@ pub struct WallLaw {
     pub(crate) roughness: Option<f64>,
     pub(crate) roughness_factor: f64,
     pub(crate) spacing: f64,
+    /// A rough wall's facets; none on a smooth one.
+    pub(crate) scatter: Option<Scatter>,
 }
 
 impl WallLaw {
@@ -108,6 +112,7 @@ impl WallLaw {
             roughness: None,
             roughness_factor: 1.0,
             spacing: crate::roughness::CALIBRATED_SPACING,
+            scatter: None,
         }
     }
 
@@ -124,6 +129,11 @@ impl WallLaw {
     /// The tangential law.
     pub fn tangential(&self) -> &Tangential {
         &self.tangential
+    }
+
+    /// A rough wall's facets: such a law uses the [`Impact::draws`]. `None` for a smooth wall.
+    pub fn scatter(&self) -> Option<&Scatter> {
+        self.scatter.as_ref()
     }
 
     /// Density of the law's own sphere, kg/m³, used when an impact names none.
@@ -176,12 +186,21 @@ impl WallLaw {
     /// ```
     #[inline]
     pub fn impact(&self, impact: &Impact) -> Result<Outcome, ImpactError> {
+        match &self.scatter {
+            None => self.smooth_impact(impact),
+            Some(scatter) => self.rough_impact(scatter, impact),
+        }
+    }
+
+    /// One impact on the wall, or the facet, whose normal it names.
+    #[inline]
+    fn smooth_impact(&self, impact: &Impact) -> Result<Outcome, ImpactError> {
         #[cfg(target_arch = "x86_64")]
         if std::arch::is_x86_feature_detected!("fma") {
             // SAFETY: the processor has the features the function is compiled for, as was just asked.
             return unsafe { impact_fma(self, impact) };
         }
-        self.impact_inlined(impact)
+        self.smooth_body(impact)
     }
 
     /// As [`WallLaw::impact`], compiled into the caller for the caller's own instruction set: the same bits, and the answer need not pass
@@ -191,6 +210,28 @@ impl WallLaw {
     /// As [`WallLaw::impact`].
     #[inline(always)]
     pub fn impact_inlined(&self, impact: &Impact) -> Result<Outcome, ImpactError> {
+        match &self.scatter {
+            None => self.smooth_body(impact),
+            Some(scatter) => self.rough_impact(scatter, impact),
+        }
+    }
+
+    #[inline(always)]
+    fn smooth_body(&self, impact: &Impact) -> Result<Outcome, ImpactError> {
+        // what is added to a law must be heeded here, or by `impact` and `impact_inlined` both, as scatter is
+        let Self {
+            normal: _,
+            tangential: _,
+            density: _,
+            surface_curvature: _,
+            contact_limit: _,
+            validity: _,
+            pair: _,
+            roughness: _,
+            roughness_factor: _,
+            spacing: _,
+            scatter: _,
+        } = self;
         let square = dot(&impact.normal, &impact.normal);
         let normal = if checks::is_unit(square) { impact.normal } else { checks::unit(&impact.normal, square)? };
         let size = self.size(impact.diameter, impact.density)?;
@@ -259,7 +300,7 @@ impl WallLaw {
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "fma")]
 fn impact_fma(law: &WallLaw, impact: &Impact) -> Result<Outcome, ImpactError> {
-    law.impact_inlined(impact)
+    law.smooth_body(impact)
 }
 
 struct Sliding {

@@ -115,8 +115,8 @@ static void load(void)
     }
     ready = 0;
     strcpy(trouble, "carom: ");
-    if (carom_walls_read(&walls, path != NULL && path[0] != '\0' ? path : "carom-walls.txt", trouble + prefix,
-                         sizeof trouble - prefix) != 0) {
+    if (carom_walls_read(&walls, path != NULL && path[0] != '\0' ? path : "carom-walls.txt", CAROM_ZONES_BY_ID,
+                         trouble + prefix, sizeof trouble - prefix) != 0) {
         Error("%s\n", trouble);
         return;
     }
@@ -172,26 +172,17 @@ static int normal_at(Tracked_Particle *p, const real f_normal[], int dim, double
     return dim;
 }
 
-/* Four numbers in [0, 1) that depend on the particle and the place and time of its impact alone: the same on any node. */
+/* From the particle and the place and time of its impact: the same on any node, and for carom_accretion. */
 static void draw(Tracked_Particle *p, int dim, double draws[4])
 {
-    uint64_t state = (uint64_t)PARTICLE_ID(p), bits, z;
-    double value;
+    double numbers[4];
     int i;
 
-    for (i = 0; i <= dim; i++) {
-        value = i < dim ? (double)PARTICLE_POS(p)[i] : (double)PARTICLE_TIME(p);
-        memcpy(&bits, &value, sizeof bits);
-        state = (state ^ bits) * UINT64_C(0x9E3779B97F4A7C15);
-        state ^= state >> 32;
+    for (i = 0; i < dim; i++) {
+        numbers[i] = PARTICLE_POS(p)[i];
     }
-    for (i = 0; i < 4; i++) {
-        /* SplitMix64 (Steele, Lea & Flood 2014, doi:10.1145/2660193.2660195) */
-        z = state += UINT64_C(0x9E3779B97F4A7C15);
-        z = (z ^ (z >> 30)) * UINT64_C(0xBF58476D1CE4E5B9);
-        z = (z ^ (z >> 27)) * UINT64_C(0x94D049BB133111EB);
-        draws[i] = (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
-    }
+    numbers[dim] = PARTICLE_TIME(p);
+    carom_walls_draw((uint64_t)PARTICLE_ID(p), numbers, dim + 1, draws);
 }
 
 static double amount(Tracked_Particle *p)

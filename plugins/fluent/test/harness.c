@@ -363,12 +363,12 @@ static void mistakes(void)
     struck = particle(1);
     wall = &faces[0];
     table("zone 5 floor walls.toml:glas\n");
-    STOPS(carom_reload, "carom: table.txt:1: zone 5 (floor): walls.toml: no law 'glas'; did you mean glass?");
+    STOPS(carom_reload, "carom: table.txt:1: zone floor: walls.toml: no law 'glas'; did you mean glass?");
     /* and it stays said */
     STOPS(strike, "no law 'glas'");
     STOPS(carom_report, "no law 'glas'");
     table("# walls\nzone 5 floor none.toml:glass\n");
-    STOPS(carom_reload, "table.txt:2: zone 5 (floor): none.toml: No such file or directory");
+    STOPS(carom_reload, "table.txt:2: zone floor: none.toml: No such file or directory");
     table("zone 5 floor bad.toml:glass\n");
     STOPS(carom_reload, "bad.toml:2:10: unknown material 'coper'; did you mean copper?");
     SAYS("sphere = \"coper\"");

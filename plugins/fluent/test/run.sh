@@ -20,8 +20,8 @@ cd "$work"
 for dimension in 1 0; do
     for kind in "" -DSTANDIN_OLD -DSTANDIN_SINGLE; do
         # as Fluent does: position-independent; -Wconversion is out, since in single precision udf.h's own macros convert
-        cc -std=gnu99 -g -O1 -fPIC -Wall -Wextra -Werror -pedantic -Wshadow -DRP_2D=$dimension $kind -I"$here" -I"$here/../src" \
-            -Icarom/include "$here/../src/carom_walls.c" "$here/../src/carom_dpm.c" "$here/harness.c" carom/lib/libcarom.a \
+        cc -std=gnu99 -g -O1 -fPIC -Wall -Wextra -Werror -pedantic -Wshadow -DRP_2D=$dimension $kind -I"$here" -I"$here/../../wall-table" \
+            -Icarom/include "$here/../../wall-table/carom_walls.c" "$here/../src/carom_dpm.c" "$here/harness.c" carom/lib/libcarom.a \
             $(sed -n 's/^Libs.private: //p' carom/lib/pkgconfig/carom.pc) -o harness
         printf '%s ' "-DRP_2D=$dimension $kind"
         ./harness

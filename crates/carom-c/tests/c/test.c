@@ -117,6 +117,21 @@ static void refusals(const carom_law *law)
     EXPECT(strcmp(carom_last_error(), "no/such/file.toml: No such file or directory") == 0);
 }
 
+static void columns(const carom_law *law)
+{
+    const double normal[3] = {0.5, 0.01, 2.0}, tangential[3] = {2.0, 2.0, -1.0}, spin[3] = {0.0, 0.0, 1e3};
+    const double diameter[3] = {90e-6, 90e-6, 90e-6};
+    double n[3], t[3], s[3], e[3], mu[3];
+    carom_impact_in in = oblique();
+    carom_impact_out out = blank();
+    size_t failed = 9;
+
+    EXPECT(carom_impact_columns(law, 3, normal, tangential, spin, diameter, n, t, s, e, mu, &failed) == CAROM_STATUS_OK);
+    EXPECT(failed == 3 && carom_impact(law, &in, &out) == CAROM_STATUS_OK);
+    EXPECT(n[0] == out.velocity[1] && t[0] == out.velocity[0] && s[0] == -out.spin[2] && e[0] == out.restitution);
+    EXPECT(n[1] == 0.0 && t[1] == 0.0 && s[1] == 0.0 && isnan(mu[1]) && n[2] > 1.0);
+}
+
 /* what a program does that was compiled when the structs were shorter */
 static void shorter_structs(const carom_law *law)
 {
@@ -198,6 +213,7 @@ int main(void)
     EXPECT(carom_law_density(law) > 8000.0);
     rebounds_and_captures(law);
     refusals(law);
+    columns(law);
     shorter_structs(law);
     threads(law);
     for (bit = 1; bit != 0; bit <<= 1) {

@@ -21,7 +21,12 @@ impl std::str::FromStr for By {
         let form = "a flag and its values are wanted, such as diameter=10um,20um or law=ea,eap";
         let (key, list) = text.split_once('=').ok_or(form)?;
         let separator = if list.contains(';') { ';' } else { ',' };
-        let written: Vec<&str> = list.split(separator).map(str::trim).filter(|v| !v.is_empty()).collect();
+        let mut depth = 0;
+        let between = |c: char| {
+            depth += i32::from(c == '(') - i32::from(c == ')');
+            c == separator && depth == 0
+        };
+        let written: Vec<&str> = list.split(between).map(str::trim).filter(|v| !v.is_empty()).collect();
         let last = written.last().ok_or(form)?;
         let key = key.trim().trim_start_matches("--").replace('_', "-");
         let shares_unit = Swept::ALL.iter().any(|q| q.flag() == key);
@@ -51,6 +56,7 @@ pub fn set(args: &mut ImpactArgs, key: &str, value: &str) -> Result<(), Failure>
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::uncertain::Given;
 
     #[test]
     fn curves_vary_any_flag() {
@@ -58,10 +64,12 @@ mod tests {
         assert_eq!(by.values, ["adhesion-work,hertz-damping", "ea"]);
         let by: By = "diameter=10,20um".parse().expect("two diameters");
         assert_eq!(by.values, ["10um", "20um"]);
+        let by: By = "diameter=lognormal(10um, 1.3),20um".parse().expect("a distribution and a diameter");
+        assert_eq!(by.values, ["lognormal(10um, 1.3)", "20um"]);
         let mut args = ImpactArgs::default();
         args.motion.speed = Some(3.0);
         set(&mut args, "diameter", "10um").expect("a diameter");
-        assert_eq!((args.motion.diameter, args.motion.speed), (Some(1e-5), Some(3.0)));
+        assert_eq!((args.motion.diameter.clone(), args.motion.speed), (Some(Given::One(1e-5)), Some(3.0)));
         assert!(
             matches!(set(&mut args, "diamter", "1"), Err(Failure::Input(m)) if m.contains("did you mean diameter?"))
         );

@@ -3,10 +3,11 @@
 use carom::SpecError;
 
 /// Keys that are written as flags wherever they appear.
-const KEYS: [&str; 15] = [
+const KEYS: [&str; 16] = [
     "walton_beta",
     "roughness_factor",
     "roughness_model",
+    "roughness_angle",
     "asperity_radius",
     "adhesion_damping",
     "hertz_damping",

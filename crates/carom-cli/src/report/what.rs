@@ -12,7 +12,7 @@ pub fn section(report: &mut Report, about: &About) -> Result<(), ReportError> {
     let rows = [
         ("fluid", "fluid", "dry air at 24 °C and one atmosphere"),
         ("flow", "flow", "still"),
-        ("forces", "forces", "drag after Schiller & Naumann"),
+        ("forces", "forces", "drag after Schiller & Naumann, no gravity"),
         ("run", "run", "until all have ended at walls"),
     ];
     let given = rows.map(|(_, key, absent)| case.get(key).map_or_else(|| absent.to_owned(), |v| keys(v, &[])));

@@ -1,11 +1,12 @@
 //! Reading a table's file as a stream of batches, for the columns that are wanted.
 
+use std::borrow::Cow;
 use std::fs::File;
-use std::io::BufReader;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::parquet_reader::ParquetDecoder;
+use super::rows::{Row, RowReader};
 use super::{Cell, Field, Format, Kind, Schema, Table};
 use crate::ReportError;
 
@@ -31,6 +32,31 @@ pub struct TableReader {
     path: PathBuf,
     batch: Table,
     decoder: Decoder,
+    sample: Sample,
+}
+
+/// Which rows are taken: one in so many, told by a hash of their numbers, so that it is the same ones every time and no
+/// period of the table shows.
+#[derive(Clone, Copy)]
+struct Sample {
+    one_in: u64,
+    /// The number of the next row.
+    next: u64,
+}
+
+impl Sample {
+    /// Whether a row so far ahead is taken.
+    fn takes(self, ahead: u64) -> bool {
+        self.one_in <= 1 || scrambled(self.next.wrapping_add(ahead)).is_multiple_of(self.one_in)
+    }
+}
+
+/// SplitMix64's finalizer (Steele, Lea & Flood 2014, doi:10.1145/2660193.2660195).
+fn scrambled(n: u64) -> u64 {
+    let z = n.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ z >> 31
 }
 
 enum Decoder {
@@ -57,7 +83,19 @@ impl TableReader {
             Format::Json => Err(ReportError::UnknownExtension { path: path.to_path_buf(), known: ".csv and .parquet" }),
         };
         let decoder = decoder.map_err(|e| named(e, path))?;
-        Ok(Self { path: path.to_path_buf(), batch: Table::with_schema(&schema)?, decoder })
+        Ok(Self {
+            path: path.to_path_buf(),
+            batch: Table::with_schema(&schema)?,
+            decoder,
+            sample: Sample { one_in: 1, next: 0 },
+        })
+    }
+
+    /// Takes one row in so many only, chosen as if by chance but the same every time.
+    #[must_use]
+    pub fn one_in(mut self, rows: u64) -> Self {
+        self.sample.one_in = rows;
+        self
     }
 
     /// The next rows, in the order of the file; `None` after the last.
@@ -65,12 +103,22 @@ impl TableReader {
     /// # Errors
     /// [`ReportError::File`], and [`ReportError::Mismatch`] for a cell that is not of its column's kind.
     pub fn next_batch(&mut self) -> Result<Option<&Table>, ReportError> {
+        let mut more = true;
         self.batch.clear();
-        let read = match &mut self.decoder {
-            Decoder::Csv(d) => d.read(&mut self.batch),
-            Decoder::Parquet(d) => d.read(&mut self.batch),
-        };
-        read.map_err(|e| named(e, &self.path))?;
+        while more && self.batch.rows() == 0 {
+            let read = match &mut self.decoder {
+                Decoder::Csv(d) => d.read(&mut self.batch, &mut self.sample).map(|()| false),
+                Decoder::Parquet(d) => d.read(&mut self.batch).map(|()| {
+                    let (rows, sample) = (self.batch.rows(), self.sample);
+                    if sample.one_in > 1 {
+                        self.batch.retain(|row| sample.takes(row as u64));
+                    }
+                    self.sample.next += rows as u64;
+                    rows > 0
+                }),
+            };
+            more = read.map_err(|e| named(e, &self.path))?;
+        }
         Ok((self.batch.rows() > 0).then_some(&self.batch))
     }
 }
@@ -84,10 +132,11 @@ fn named(error: ReportError, path: &Path) -> ReportError {
 }
 
 struct CsvDecoder {
-    inner: csv::Reader<BufReader<File>>,
-    /// Where each wanted column stands.
-    places: Vec<usize>,
-    row: csv::ByteRecord,
+    rows: RowReader<File>,
+    /// For each column of the file, which wanted one it is.
+    wanted: Vec<Option<usize>>,
+    /// Wanted columns.
+    count: usize,
     /// Texts met so far, shared by their cells: names of walls and fates repeat.
     texts: Vec<Arc<str>>,
 }
@@ -97,35 +146,62 @@ const TEXTS: usize = 256;
 
 impl CsvDecoder {
     fn new(file: File, schema: &[Field]) -> Result<Self, ReportError> {
-        let mut inner = csv::Reader::from_reader(BufReader::with_capacity(1 << 16, file));
-        let header = inner.headers()?;
-        let place = |field: &Field| {
-            header
-                .iter()
-                .position(|name| name == field.name)
-                .ok_or_else(|| ReportError::Mismatch(format!("there is no column \"{}\"", field.name)))
-        };
-        let places = schema.iter().map(place).collect::<Result<_, _>>()?;
-        Ok(Self { inner, places, row: csv::ByteRecord::new(), texts: Vec::new() })
+        let mut rows = RowReader::new(file);
+        let header: Vec<Cow<[u8]>> = rows.next_row()?.map_or_else(Vec::new, |row| row.fields().map(owned).collect());
+        let mut wanted = vec![None; header.len()];
+        for (column, field) in schema.iter().enumerate() {
+            let place = header.iter().position(|name| **name == *field.name.as_bytes());
+            let place = place.and_then(|p| wanted.get_mut(p));
+            *place.ok_or_else(|| ReportError::Mismatch(format!("there is no column \"{}\"", field.name)))? =
+                Some(column);
+        }
+        // what stands behind the last wanted column need not be split off
+        while wanted.last().is_some_and(Option::is_none) {
+            wanted.pop();
+        }
+        Ok(Self { rows, wanted, count: schema.len(), texts: Vec::new() })
     }
 
-    fn read(&mut self, batch: &mut Table) -> Result<(), ReportError> {
-        for _ in 0..ROWS {
-            if !self.inner.read_byte_record(&mut self.row)? {
-                break;
+    fn read(&mut self, batch: &mut Table, sample: &mut Sample) -> Result<(), ReportError> {
+        let mut taken = 0;
+        while taken < ROWS {
+            let Some(row) = self.rows.next_row()? else { break };
+            let takes = sample.takes(0);
+            sample.next += 1;
+            if !takes {
+                continue;
             }
-            for (column, place) in batch.columns.iter_mut().zip(&self.places) {
-                let text = self.row.get(*place).unwrap_or_default();
-                let cell = cell(text, column.values.kind(), &mut self.texts);
-                if cell.and_then(|cell| column.values.push(cell).ok()).is_none() {
-                    let line = self.row.position().map_or(0, csv::Position::line);
-                    let text = String::from_utf8_lossy(text);
-                    return Err(ReportError::Mismatch(format!("line {line}: '{text}' in column \"{}\"", column.name)));
-                }
+            if let Err(bad) = push(row, &self.wanted, self.count, &mut self.texts, batch) {
+                return Err(ReportError::Mismatch(format!("line {}: {bad}", self.rows.line())));
             }
+            taken += 1;
         }
         Ok(())
     }
+}
+
+fn owned(field: Cow<[u8]>) -> Cow<'static, [u8]> {
+    Cow::Owned(field.into_owned())
+}
+
+/// Appends the wanted cells of a row; says what is wrong with it.
+fn push(
+    row: Row,
+    wanted: &[Option<usize>],
+    count: usize,
+    texts: &mut Vec<Arc<str>>,
+    batch: &mut Table,
+) -> Result<(), String> {
+    let mut pushed = 0;
+    for (text, column) in row.fields().zip(wanted) {
+        let Some(column) = column.and_then(|c| batch.columns.get_mut(c)) else { continue };
+        let cell = cell(&text, column.values.kind(), texts);
+        if cell.and_then(|cell| column.values.push(cell).ok()).is_none() {
+            return Err(format!("'{}' in column \"{}\"", String::from_utf8_lossy(&text), column.name));
+        }
+        pushed += 1;
+    }
+    if pushed == count { Ok(()) } else { Err("the row is cut short".to_owned()) }
 }
 
 fn cell(text: &[u8], kind: Kind, texts: &mut Vec<Arc<str>>) -> Option<Cell> {

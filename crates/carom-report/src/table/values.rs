@@ -75,6 +75,19 @@ impl Values {
         }
     }
 
+    pub(super) fn retain(&mut self, kept: &[bool]) {
+        fn retain<T>(values: &mut Vec<T>, kept: &[bool]) {
+            let mut kept = kept.iter();
+            values.retain(|_| kept.next().is_none_or(|k| *k));
+        }
+        match self {
+            Self::Float(v) => retain(v, kept),
+            Self::Integer(v) => retain(v, kept),
+            Self::Count(v) => retain(v, kept),
+            Self::Text(v) => retain(v, kept),
+        }
+    }
+
     /// Appends one cell; hands it back when its kind does not fit.
     pub(super) fn push(&mut self, cell: Cell) -> Result<(), Cell> {
         match (self, cell) {

@@ -1,14 +1,13 @@
 //! `[fluid]`, `[flow]` and `[forces]`.
 
 use super::check::{needed, placed, unknown, word, wrong};
+use super::files::Files;
 use super::text::{FlowText, FluidText, ForcesText, Si};
 use crate::dynamics::Dynamics;
 use crate::flow::{Channel, Flow, Fluid, Pipe, Profile, RoundJet, SlotJet, Stagnation, Symmetry, Table};
-use crate::force::random_walk::Life;
-use crate::force::{Drag, Forces, NearWall, RandomWalk, Slip};
+use crate::force::{Drag, Forces, Life, NearWall, RandomWalk, Slip};
 use carom::SpecError;
 use carom::spec::At;
-use std::path::Path;
 
 const ATMOSPHERE: f64 = 101_325.0;
 
@@ -40,7 +39,7 @@ const PROFILES: [(&str, Profile); 3] =
     [("plug", Profile::Plug), ("laminar", Profile::Laminar), ("turbulent", Profile::Turbulent)];
 
 /// The flow; still where none is given. Files are looked for beside the case.
-pub(super) fn flow(text: Option<&At<FlowText>>, fluid: &Fluid, folder: &Path) -> Result<Flow, SpecError> {
+pub(super) fn flow(text: Option<&At<FlowText>>, fluid: &Fluid, files: &Files) -> Result<Flow, SpecError> {
     let Some(text) = text else { return Ok(Flow::Still) };
     let kind = text.kind.value.as_str();
     refuse_others(text, kind)?;
@@ -79,9 +78,9 @@ pub(super) fn flow(text: Option<&At<FlowText>>, fluid: &Fluid, folder: &Path) ->
         }
         "table" => {
             let file = needed(&text.file, text, "file", &whose)?;
-            Flow::Table(
-                Table::load(&folder.join(&file.value)).map_err(|e| placed(file, format!("{}: {e}", file.value)))?,
-            )
+            let failed = |e: &dyn std::fmt::Display| placed(file, format!("{}: {e}", file.value));
+            let bytes = files.read(&file.value).map_err(|e| failed(&e))?;
+            Flow::Table(Table::from_file(&file.value, &bytes).map_err(|e| failed(&e))?)
         }
         _ => return Err(unknown(&text.kind, "kind of flow", KINDS.into_iter())),
     })
@@ -175,6 +174,9 @@ fn random_walk(text: &ForcesText) -> Result<Option<RandomWalk>, SpecError> {
     }
     if let Some(life) = &text.life {
         walk.life = word(life, "eddy life", &LIVES)?;
+    }
+    if let Some(drift) = text.drift {
+        walk.drift = drift;
     }
     if let Some(scale) = &text.time_scale {
         walk.time_scale = super::check::positive(scale, "time_scale", scale.value.0)?;

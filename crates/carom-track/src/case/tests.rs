@@ -171,3 +171,37 @@ fn any_bytes_are_answered_not_suffered() {
         }
     });
 }
+
+#[test]
+fn removal_is_a_wall_option() {
+    let with = |removal: &str| GOOD.replacen("law = \"plate\"", &format!("law = \"plate\"\nremoval = {removal}"), 1);
+    let of = |removal: &str| match &read(&with(removal)).unwrap_or_else(|e| panic!("{removal}: {e}")).behaviors[0] {
+        Behavior::Removal(_, r) => Some(*r),
+        _ => None,
+    };
+    use carom::removal::Mode;
+    let removal = |mode, friction_velocity| Some(crate::tracker::Removal { mode, friction_velocity });
+    assert_eq!(of("false"), None);
+    assert_eq!(of("true"), removal(None, None));
+    assert_eq!(of("\"lifting\""), removal(Some(Mode::Lifting), None));
+    assert_eq!(of("{ friction_velocity = \"0.5 m/s\" }"), removal(None, Some(0.5)));
+    assert_eq!(of("{ mode = \"sliding\", friction_velocity = 2 }"), removal(Some(Mode::Sliding), Some(2.0)));
+    refused("law = \"plate\"", "law = \"plate\"\nremoval = \"roling\"", &["did you mean rolling?"]);
+    refused("law = \"plate\"", "law = \"plate\"\nremoval = 3", &["true, false"]);
+    refused("law = \"plate\"", "law = \"plate\"\nremoval = { speed = 3 }", &["unknown key 'speed'"]);
+    refused("law = \"plate\"", "law = \"plate\"\nremoval = { friction_velocity = -1 }", &["must be positive"]);
+    refused("law = \"escape\"", "law = \"escape\"\nremoval = true", &["holds nothing by adhesion"]);
+    refused("law = \"reflect\"", "law = \"reflect\"\nremoval = true", &["holds no sphere"]);
+    let still = with("true").replacen("profile = \"laminar\"", "profile = \"plug\"", 1);
+    let error = read(&still).expect_err("a plug has no wall shear").to_string();
+    assert!(error.contains("this flow knows none") && error.contains("friction_velocity = "), "{error}");
+}
+
+#[test]
+fn the_random_walk_is_well_mixed_unless_told_otherwise() {
+    let walk = |keys: &str| {
+        let text = GOOD.replace("drag = ", &format!("random_walk = {{ {keys} }}\ndrag = "));
+        read(&text).unwrap().dynamics.random_walk.unwrap()
+    };
+    assert!(walk("").drift && walk("drift = true").drift && !walk("drift = false").drift);
+}

@@ -1,5 +1,6 @@
 //! The case file as written: what serde reads, with places, before anything is checked.
 
+use super::removal::RemovalText;
 use crate::tables::TableFormat;
 use carom::material::MaterialRef;
 use carom::spec::{At, CurveSpec, LawSpec};
@@ -81,6 +82,7 @@ pub(super) struct ForcesText {
 pub(super) struct RandomWalkText {
     pub near_wall: Option<At<String>>,
     pub life: Option<At<String>>,
+    pub drift: Option<bool>,
     pub time_scale: Option<At<Number>>,
 }
 
@@ -98,6 +100,7 @@ pub(super) struct WallText {
     pub restitution: Option<At<CurveSpec>>,
     pub tangential_restitution: Option<At<CurveSpec>>,
     pub contact_at: Option<At<String>>,
+    pub removal: Option<At<RemovalText>>,
     pub velocity: Option<At<[Speed; 3]>>,
 }
 

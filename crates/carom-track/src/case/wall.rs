@@ -1,6 +1,7 @@
 //! `[[wall]]` and `[law.*]`.
 
 use super::check::{needed, positive, word, wrong};
+use super::files::Files;
 use super::injection::{Injected, no_such_law};
 use super::text::{Si, StlText, WallText};
 use crate::domain::{ContactAt, Wall};
@@ -11,7 +12,6 @@ use carom::SpecError;
 use carom::material::{Library, MaterialRef};
 use carom::spec::{At, LawSpec, NormalKind, NormalSpec, TangentialKind};
 use std::collections::BTreeMap;
-use std::path::Path;
 
 /// What a wall may be besides a law of the case.
 pub(super) const WORDS: [&str; 4] = ["trap", "escape", "wall-jet", "reflect"];
@@ -20,16 +20,16 @@ pub(super) const WORDS: [&str; 4] = ["trap", "escape", "wall-jet", "reflect"];
 pub(super) type Laws = BTreeMap<String, At<LawSpec>>;
 
 /// The geometry of a wall.
-pub(super) fn read(at: &At<WallText>, folder: &Path) -> Result<Wall, SpecError> {
+pub(super) fn read(at: &At<WallText>, files: &Files) -> Result<Wall, SpecError> {
     let text = &at.value;
-    let shape = shape(at, folder)?;
+    let shape = shape(at, files)?;
     let contacts = [("surface", ContactAt::Surface), ("center", ContactAt::Center)];
     let contact_at = text.contact_at.as_ref().map_or(Ok(ContactAt::Surface), |c| word(c, "contact_at", &contacts))?;
     let velocity = velocity(text, &shape)?;
     Ok(Wall { name: text.name.value.clone(), shape, contact_at, velocity })
 }
 
-fn shape(at: &At<WallText>, folder: &Path) -> Result<Shape, SpecError> {
+fn shape(at: &At<WallText>, files: &Files) -> Result<Shape, SpecError> {
     let text = &at.value;
     let name = &text.name.value;
     let mut shapes = Vec::new();
@@ -57,7 +57,7 @@ fn shape(at: &At<WallText>, folder: &Path) -> Result<Shape, SpecError> {
         shapes.extend(Mesh::block(min, max).map(Shape::Mesh));
     }
     if let Some(stl) = &text.stl {
-        shapes.push(Shape::Mesh(mesh(stl, folder)?));
+        shapes.push(Shape::Mesh(mesh(stl, files)?));
     }
     match (shapes.pop(), shapes.is_empty()) {
         (Some(shape), true) => Ok(shape),
@@ -87,13 +87,13 @@ fn direction(at: &At<[f64; 3]>, key: &str) -> Result<[f64; 3], SpecError> {
 }
 
 /// Triangles from an STL file, text or binary; its numbers are in metres unless a unit is given.
-fn mesh(at: &At<StlText>, folder: &Path) -> Result<Mesh, SpecError> {
+fn mesh(at: &At<StlText>, files: &Files) -> Result<Mesh, SpecError> {
     let file = &at.value.file;
     let unit = at.value.unit.as_ref().map_or(Ok(1.0), |u| positive(u, "unit", u.value.0))?;
     let failed = |e: std::io::Error| wrong(file, format!("{}: {e}", file.value));
-    let mut open = std::fs::File::open(folder.join(&file.value)).map_err(failed)?;
+    let mut bytes = std::io::Cursor::new(files.read(&file.value).map_err(failed)?);
     let mut triangles = Vec::new();
-    for triangle in stl_io::create_stl_reader(&mut open).map_err(failed)? {
+    for triangle in stl_io::create_stl_reader(&mut bytes).map_err(failed)? {
         let corner = |v: &stl_io::Vertex| [0, 1, 2].map(|c| f64::from(v.0[c]) * unit);
         let [a, b, c] = &triangle.map_err(failed)?.vertices;
         triangles.push([corner(a), corner(b), corner(c)]);

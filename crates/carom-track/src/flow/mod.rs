@@ -132,6 +132,15 @@ impl Flow {
         u
     }
 
+    /// Whether it knows the friction velocity of its walls.
+    pub fn has_friction_velocity(&self) -> bool {
+        match self {
+            Self::Channel(f) => f.friction_velocity() > 0.0,
+            Self::Pipe(f) => f.friction_velocity() > 0.0,
+            _ => false,
+        }
+    }
+
     /// Everything known of the fluid at `x`.
     pub fn sample(&self, x: [f64; 3]) -> Local {
         match self {

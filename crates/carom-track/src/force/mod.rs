@@ -16,7 +16,7 @@ pub mod slip;
 
 pub use brownian::brownian_amplitude;
 pub use drag::{Drag, relaxation_time, reynolds};
-pub use random_walk::{Eddy, NearWall, RandomWalk};
+pub use random_walk::{Eddy, Life, NearWall, RandomWalk, Surroundings};
 pub use slip::Slip;
 
 use crate::flow::{Fluid, Local};

@@ -27,7 +27,7 @@ pub(super) const DEPOSITION: &str = "deposition.csv";
 pub(super) struct State {
     /// Of the form of this file.
     pub version: u32,
-    /// Of the case's text.
+    /// Of the case: see [`Case::fingerprint`].
     pub fingerprint: u64,
     /// The part of the run that it is, where it is no whole run.
     pub shard: Option<Shard>,
@@ -47,7 +47,7 @@ pub(super) struct State {
 }
 
 /// The form of checkpoints.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 
 impl State {
     pub fn new(case: &Case, shard: Option<Shard>, blocks: Range<u64>) -> Self {
@@ -226,7 +226,9 @@ fn same_run(old: State, fresh: &State, folder: &Path) -> Result<State, RunError>
         return foreign("written by another version: run again without --resume");
     }
     if old.fingerprint != fresh.fingerprint {
-        return foreign("the case file was changed since: run again without --resume");
+        return foreign(
+            "the case, its materials or a file it names was changed since: run again without --resume, or put back what was there",
+        );
     }
     if old.shard != fresh.shard || old.blocks != fresh.blocks {
         return foreign("belongs to another shard: give the same --shard");

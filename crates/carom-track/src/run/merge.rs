@@ -60,7 +60,10 @@ fn parts(shards: &[PathBuf]) -> Result<Vec<Part<'_>>, RunError> {
         if let Some((first, first_shard, other)) = parts.first() {
             let (of, other) = (first_shard.of, other.display());
             if state.fingerprint != first.fingerprint || state.block_size != first.block_size {
-                return Err(RunError::foreign(folder, format!("a shard of another case than {other}")));
+                return Err(RunError::foreign(
+                    folder,
+                    format!("a shard of another case than {other}, or of other materials or files"),
+                ));
             }
             if shard.of != of {
                 let message = format!("one of {} shards, {other} is one of {of}: they are of two runs", shard.of);

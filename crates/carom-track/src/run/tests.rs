@@ -174,7 +174,12 @@ fn resuming_something_else_is_refused() {
     let other =
         Case::from_toml(&CASE.replace("seed = 3", "seed = 4"), Path::new("case.toml"), &Library::builtin()).unwrap();
     let resume = RunOptions { resume: true, ..options(folder.path(), 2) };
-    assert!(run(&other, &resume, &Silent).unwrap_err().to_string().contains("case file was changed"));
+    assert!(
+        run(&other, &resume, &Silent)
+            .unwrap_err()
+            .to_string()
+            .contains("the case, its materials or a file it names was changed")
+    );
     let shard = RunOptions { shard: Some(Shard { index: 1, of: 2 }), ..resume };
     assert!(run(&case(), &shard, &Silent).unwrap_err().to_string().contains("another shard"));
     let nowhere = RunOptions { resume: true, ..RunOptions::default() };
@@ -373,3 +378,5 @@ fn a_box_from_stl_is_the_box() {
         Case::from_toml(&text("stl = { file = \"bix.stl\" }"), &folder.path().join("case.toml"), &Library::builtin());
     assert!(lost.unwrap_err().to_string().contains("bix.stl"));
 }
+
+mod results;

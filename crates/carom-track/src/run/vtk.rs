@@ -1,12 +1,17 @@
 //! Trajectories and deposits as VTK XML poly data, for ParaView and its like.
 //!
-//! Made from the finished tables, a pass for each array, so that memory stays flat.
+//! Made from the finished tables, each read once: every array is spooled into a file without a name while the rows go by,
+//! and the arrays are then put one after the other as raw binary. Memory stays flat, values keep all their bits.
 
 use super::RunError;
 use crate::tables::{IMPACTS, LAYOUTS, TRAJECTORIES, TableFormat};
+use carom_report::{Row, RowReader};
+use std::borrow::Cow;
+use std::fmt::Write as _;
 use std::fs::File;
-use std::io::{BufWriter, Write};
+use std::io::{self, BufWriter, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
+use std::str::FromStr;
 
 /// Writes `trajectories.vtp` (a line for each recorded particle) and `deposit.vtp` (a point for each particle a wall kept)
 /// beside the tables they are made from.
@@ -24,131 +29,173 @@ fn table(folder: &Path, index: usize) -> PathBuf {
     folder.join(LAYOUTS[index].file(TableFormat::Csv))
 }
 
-/// A table that is read several times.
-struct Source<'a> {
-    path: PathBuf,
-    wanted: &'a dyn Fn(&csv::StringRecord) -> bool,
+/// Calls `each` with every row of a table.
+fn rows(folder: &Path, index: usize, mut each: impl FnMut(Row) -> io::Result<()>) -> Result<(), RunError> {
+    let path = table(folder, index);
+    let error = RunError::io(&path);
+    let mut rows = RowReader::new(File::open(&path).map_err(&error)?);
+    // the header
+    rows.next_row().map_err(&error)?;
+    while let Some(row) = rows.next_row().map_err(&error)? {
+        each(row).map_err(&error)?;
+    }
+    Ok(())
 }
 
-impl Source<'_> {
-    /// Calls `each` with every wanted row.
-    fn rows(&self, mut each: impl FnMut(&csv::StringRecord) -> std::io::Result<()>) -> Result<(), RunError> {
-        let io = RunError::io(&self.path);
-        let mut reader = csv::Reader::from_path(&self.path).map_err(|e| io(e.into()))?;
-        let mut row = csv::StringRecord::new();
-        while reader.read_record(&mut row).map_err(|e| io(e.into()))? {
-            if (self.wanted)(&row) {
-                each(&row).map_err(&io)?;
-            }
+/// A field as a number; an empty one is `none`.
+fn number<T: FromStr>(field: Option<&Field>, none: Option<T>) -> io::Result<T> {
+    let text = field.map_or("", |f| std::str::from_utf8(f).unwrap_or("?"));
+    let number = if text.is_empty() { none } else { text.parse().ok() };
+    number.ok_or_else(|| io::Error::new(io::ErrorKind::InvalidData, format!("'{text}' where a number should be")))
+}
+
+type Field<'a> = Cow<'a, [u8]>;
+
+/// The values of one array, on disk until its turn comes.
+struct Array {
+    name: &'static str,
+    kind: &'static str,
+    components: usize,
+    values: BufWriter<File>,
+    bytes: u64,
+}
+
+impl Array {
+    fn new(folder: &Path, name: &'static str, kind: &'static str, components: usize) -> Result<Self, RunError> {
+        let file = tempfile::tempfile_in(folder).map_err(RunError::io(folder))?;
+        Ok(Self { name, kind, components, values: BufWriter::with_capacity(1 << 14, file), bytes: 0 })
+    }
+
+    fn floats<const N: usize>(folder: &Path, name: &'static str) -> Result<Self, RunError> {
+        Self::new(folder, name, "Float64", N)
+    }
+
+    fn integers(folder: &Path, name: &'static str) -> Result<Self, RunError> {
+        Self::new(folder, name, "Int64", 1)
+    }
+
+    fn put(&mut self, value: [u8; 8]) -> io::Result<()> {
+        self.bytes += 8;
+        self.values.write_all(&value)
+    }
+
+    /// Adds a value for each column.
+    fn columns(&mut self, row: &[Field], columns: impl IntoIterator<Item = usize>) -> io::Result<()> {
+        columns.into_iter().try_for_each(|column| self.put(number(row.get(column), Some(f64::NAN))?.to_le_bytes()))
+    }
+
+    fn integer(&mut self, value: u64) -> io::Result<()> {
+        self.put(value.to_le_bytes())
+    }
+}
+
+/// Writes a file: what stands about each array in the XML, then all values.
+fn assemble(path: &Path, piece: &str, groups: &mut [(&str, Vec<Array>)]) -> Result<(), RunError> {
+    let error = RunError::io(path);
+    let mut text = String::from(
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n",
+    );
+    // a string takes every text
+    let _ = writeln!(text, "<Piece {piece}>");
+    let mut offset = 0;
+    for (group, arrays) in groups.iter() {
+        let _ = writeln!(text, "<{group}>");
+        for Array { name, kind, components, bytes, .. } in arrays {
+            let _ = writeln!(
+                text,
+                "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"appended\" offset=\"{offset}\"/>"
+            );
+            offset += 8 + bytes;
         }
-        Ok(())
+        let _ = writeln!(text, "</{group}>");
     }
+    text += "</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_";
+    let mut file = File::create(path).map_err(&error)?;
+    file.write_all(text.as_bytes()).map_err(&error)?;
+    for array in groups.iter_mut().flat_map(|(_, arrays)| arrays) {
+        file.write_all(&array.bytes.to_le_bytes()).map_err(&error)?;
+        array.values.flush().map_err(&error)?;
+        let spool = array.values.get_mut();
+        spool.seek(SeekFrom::Start(0)).map_err(&error)?;
+        io::copy(spool, &mut file).map_err(&error)?;
+    }
+    file.write_all(b"\n</AppendedData>\n</VTKFile>\n").map_err(&error)
 }
-
-/// A VTK file under way.
-struct Writer {
-    path: PathBuf,
-    file: BufWriter<File>,
-}
-
-impl Writer {
-    fn create(path: PathBuf) -> Result<Self, RunError> {
-        let file = File::create(&path).map_err(RunError::io(&path))?;
-        Ok(Self { path, file: BufWriter::new(file) })
-    }
-
-    fn text(&mut self, text: &str) -> Result<(), RunError> {
-        self.file.write_all(text.as_bytes()).map_err(RunError::io(&self.path))
-    }
-
-    /// An array made of some columns of a table.
-    fn array(&mut self, name: &str, source: &Source, columns: &[usize], kind: &str) -> Result<(), RunError> {
-        let n = columns.len();
-        self.text(&format!(
-            "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{n}\" format=\"ascii\">\n"
-        ))?;
-        let file = &mut self.file;
-        source.rows(|row| {
-            let fields: Vec<&str> = columns.iter().map(|c| row.get(*c).unwrap_or("0")).collect();
-            writeln!(file, "{}", fields.join(" "))
-        })?;
-        self.text("</DataArray>\n")
-    }
-
-    /// An array of whole numbers.
-    fn integers(&mut self, name: &str, values: impl Iterator<Item = u64>) -> Result<(), RunError> {
-        self.text(&format!("<DataArray type=\"Int64\" Name=\"{name}\" format=\"ascii\">\n"))?;
-        for value in values {
-            self.text(&format!("{value}\n"))?;
-        }
-        self.text("</DataArray>\n")
-    }
-
-    fn finish(mut self) -> Result<(), RunError> {
-        self.text("</Piece>\n</PolyData>\n</VTKFile>\n")?;
-        self.file.flush().map_err(RunError::io(&self.path))
-    }
-}
-
-const HEAD: &str =
-    "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\">\n<PolyData>\n";
 
 fn trajectories(folder: &Path) -> Result<(), RunError> {
-    let source = Source { path: table(folder, TRAJECTORIES), wanted: &|_| true };
-    // particle numbers and where their points end
-    let mut lines: Vec<(u64, u64)> = Vec::new();
-    let mut points = 0;
-    source.rows(|row| {
-        let particle = row.get(0).and_then(|p| p.parse().ok()).unwrap_or(0);
-        points += 1;
-        match lines.last_mut() {
-            Some(last) if last.0 == particle => last.1 = points,
-            _ => lines.push((particle, points)),
+    let mut time = Array::floats::<1>(folder, "time")?;
+    let mut velocity = Array::floats::<3>(folder, "velocity")?;
+    let mut spin = Array::floats::<3>(folder, "spin")?;
+    let mut particle = Array::integers(folder, "particle")?;
+    let mut place = Array::floats::<3>(folder, "points")?;
+    let mut connectivity = Array::integers(folder, "connectivity")?;
+    let mut offsets = Array::integers(folder, "offsets")?;
+    let (mut points, mut lines) = (0, 0u64);
+    let mut last = None;
+    rows(folder, TRAJECTORIES, |row| {
+        let row: Vec<Field> = row.fields().collect();
+        let this = number(row.first(), None)?;
+        if last.is_some_and(|last| last != this) {
+            offsets.integer(points)?;
         }
+        if last.replace(this) != Some(this) {
+            particle.integer(this)?;
+            lines += 1;
+        }
+        time.columns(&row, [1])?;
+        place.columns(&row, 2..5)?;
+        velocity.columns(&row, 5..8)?;
+        spin.columns(&row, 8..11)?;
+        connectivity.integer(points)?;
+        points += 1;
         Ok(())
     })?;
-    let mut out = Writer::create(folder.join("trajectories.vtp"))?;
-    out.text(HEAD)?;
-    out.text(&format!("<Piece NumberOfPoints=\"{points}\" NumberOfVerts=\"0\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n", lines.len()))?;
-    out.text("<PointData>\n")?;
-    out.array("time", &source, &[1], "Float64")?;
-    out.array("velocity", &source, &[5, 6, 7], "Float64")?;
-    out.array("spin", &source, &[8, 9, 10], "Float64")?;
-    out.text("</PointData>\n<CellData>\n")?;
-    out.integers("particle", lines.iter().map(|l| l.0))?;
-    out.text("</CellData>\n<Points>\n")?;
-    out.array("points", &source, &[2, 3, 4], "Float64")?;
-    out.text("</Points>\n<Lines>\n")?;
-    out.integers("connectivity", 0..points)?;
-    out.integers("offsets", lines.iter().map(|l| l.1))?;
-    out.text("</Lines>\n")?;
-    out.finish()
+    let path = folder.join("trajectories.vtp");
+    if last.is_some() {
+        offsets.integer(points).map_err(RunError::io(&path))?;
+    }
+    let piece = format!(
+        "NumberOfPoints=\"{points}\" NumberOfVerts=\"0\" NumberOfLines=\"{lines}\" NumberOfStrips=\"0\" NumberOfPolys=\"0\""
+    );
+    let groups = &mut [
+        ("PointData", vec![time, velocity, spin]),
+        ("CellData", vec![particle]),
+        ("Points", vec![place]),
+        ("Lines", vec![connectivity, offsets]),
+    ];
+    assemble(&path, &piece, groups)
 }
 
 fn deposit(folder: &Path) -> Result<(), RunError> {
     const FATE: usize = 12;
-    let kept = |row: &csv::StringRecord| matches!(row.get(FATE), Some("capture" | "settle" | "trap"));
-    let source = Source { path: table(folder, IMPACTS), wanted: &kept };
-    let mut points = 0u64;
-    source.rows(|_| {
+    /// Names and columns of the arrays.
+    const SINGLE: [(&str, usize); 5] =
+        [("time", 1), ("diameter", 6), ("normal_speed_in", 7), ("tangential_speed_in", 8), ("weight", 16)];
+    let mut particle = Array::integers(folder, "particle")?;
+    let mut singles =
+        SINGLE.iter().map(|(name, _)| Array::floats::<1>(folder, name)).collect::<Result<Vec<_>, RunError>>()?;
+    let mut place = Array::floats::<3>(folder, "points")?;
+    let mut connectivity = Array::integers(folder, "connectivity")?;
+    let mut offsets = Array::integers(folder, "offsets")?;
+    let mut points = 0;
+    rows(folder, IMPACTS, |row| {
+        if !matches!(row.field(FATE).as_deref(), Some(b"capture" | b"settle" | b"trap")) {
+            return Ok(());
+        }
+        let row: Vec<Field> = row.fields().collect();
+        particle.integer(number(row.first(), None)?)?;
+        for (array, (_, column)) in singles.iter_mut().zip(SINGLE) {
+            array.columns(&row, [column])?;
+        }
+        place.columns(&row, 2..5)?;
+        connectivity.integer(points)?;
         points += 1;
-        Ok(())
+        offsets.integer(points)
     })?;
-    let mut out = Writer::create(folder.join("deposit.vtp"))?;
-    out.text(HEAD)?;
-    out.text(&format!("<Piece NumberOfPoints=\"{points}\" NumberOfVerts=\"{points}\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n"))?;
-    out.text("<PointData>\n")?;
-    out.array("particle", &source, &[0], "Int64")?;
-    out.array("time", &source, &[1], "Float64")?;
-    out.array("diameter", &source, &[6], "Float64")?;
-    out.array("normal_speed_in", &source, &[7], "Float64")?;
-    out.array("tangential_speed_in", &source, &[8], "Float64")?;
-    out.array("weight", &source, &[16], "Float64")?;
-    out.text("</PointData>\n<Points>\n")?;
-    out.array("points", &source, &[2, 3, 4], "Float64")?;
-    out.text("</Points>\n<Verts>\n")?;
-    out.integers("connectivity", 0..points)?;
-    out.integers("offsets", 1..=points)?;
-    out.text("</Verts>\n")?;
-    out.finish()
+    let piece = format!(
+        "NumberOfPoints=\"{points}\" NumberOfVerts=\"{points}\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"0\""
+    );
+    singles.insert(0, particle);
+    let groups = &mut [("PointData", singles), ("Points", vec![place]), ("Verts", vec![connectivity, offsets])];
+    assemble(&folder.join("deposit.vtp"), &piece, groups)
 }

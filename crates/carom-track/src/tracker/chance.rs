@@ -1,17 +1,26 @@
 //! What changes at random in flight: the eddy a sphere is in, and the molecules' present kick.
 //!
-//! Both are constant for a while; the tracker steps exactly to the moment they change.
+//! A kick is constant for a while, and the tracker steps exactly to its end. An eddy drifts and ages with the place: half
+//! of a step's drift is added before the step, with the place it starts from, and the whole of it, with both ends, after.
 
 use super::{Crew, Tracker, motion_of};
 use crate::domain::Domain;
-use crate::force::brownian_amplitude;
+use crate::force::{Eddy, RandomWalk, Surroundings, brownian_amplitude};
 use crate::random::{Purpose, Stream};
 use crate::vector::{add, norm, sub};
 
-/// When the present eddy and kick end, s, and how many there were.
+/// The present eddy and kick and how many there were.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Chance {
-    eddy_end: f64,
+    /// The eddy at the lane's time.
+    eddy: Eddy,
+    /// What the lane's place does to it.
+    place: Surroundings,
+    /// When the sphere has crossed the eddy, s.
+    crossed: f64,
+    /// When the eddy must be looked at again, s.
+    look: f64,
+    /// When the kick ends, s.
     kick_end: f64,
     eddies: u32,
     kicks: u32,
@@ -19,17 +28,22 @@ pub(super) struct Chance {
 
 impl Chance {
     /// Nothing drawn yet.
-    pub const NONE: Self = Self { eddy_end: f64::NEG_INFINITY, kick_end: f64::NEG_INFINITY, eddies: 0, kicks: 0 };
+    pub const NONE: Self = Self {
+        eddy: Eddy::NONE,
+        place: Surroundings::CALM,
+        crossed: f64::NEG_INFINITY,
+        look: f64::NEG_INFINITY,
+        kick_end: f64::NEG_INFINITY,
+        eddies: 0,
+        kicks: 0,
+    };
 
     /// The next change, s.
     #[inline(always)]
     pub fn next(&self) -> f64 {
-        self.eddy_end.min(self.kick_end)
+        self.look.min(self.kick_end)
     }
 }
-
-/// Shortest life of an eddy in relaxation times: shorter ones a sphere does not feel, and they would take for ever.
-const SHORTEST: f64 = 1e-3;
 
 impl<D: Domain> Tracker<'_, D> {
     /// Whether anything changes at random in flight.
@@ -38,45 +52,72 @@ impl<D: Domain> Tracker<'_, D> {
         self.dynamics.random_walk.is_some() || self.dynamics.brownian
     }
 
-    /// Draws what is due at a lane's time.
-    pub(super) fn renew<const W: usize>(&self, crew: &mut Crew<W>, l: usize) {
-        let time = crew.lanes[l].time;
-        if crew.lanes[l].chance.eddy_end <= time {
-            self.renew_eddy(crew, l);
-        }
-        if crew.lanes[l].chance.kick_end <= time {
-            self.renew_kick(crew, l);
-        }
+    /// Whether eddies change during their lives.
+    #[inline(always)]
+    pub(super) fn drifts(&self) -> bool {
+        self.dynamics.random_walk.is_some_and(|walk| walk.drift)
     }
 
-    fn renew_eddy<const W: usize>(&self, crew: &mut Crew<W>, l: usize) {
-        let (time, number) = (crew.lanes[l].time, crew.lanes[l].particle.number);
-        let chance = &mut crew.lanes[l].chance;
-        let Some(walk) = &self.dynamics.random_walk else {
-            chance.eddy_end = f64::INFINITY;
-            return;
-        };
-        let (x, v, _) = motion_of(&crew.motion, l);
-        let local = self.domain.fluid(x);
-        if !(local.k > 0.0 && local.epsilon > 0.0) {
-            // nothing to draw here, but perhaps further on: ask again in a while
-            crew.bodies.eddy[l] = None;
-            chance.eddy_end = time + crew.lanes[l].step;
-            return;
+    /// Gives a lane's eddy the deviates of the middle of the step it is about to try.
+    pub(super) fn lean<const W: usize>(&self, crew: &mut Crew<W>, l: usize) {
+        let chance = &crew.lanes[l].chance;
+        crew.bodies.eddy[l] = Some(chance.eddy.middle(&chance.place, crew.h[l]));
+        crew.stale[l] = true;
+    }
+
+    /// Brings chance up to a lane's time and place, `step` after it last was, draws what is due, and says when to stop next.
+    pub(super) fn renew<const W: usize>(&self, crew: &mut Crew<W>, l: usize, step: f64) {
+        let mut changed = false;
+        match &self.dynamics.random_walk {
+            Some(walk) => changed = self.renew_eddy(walk, crew, l, step),
+            None => crew.lanes[l].chance.look = f64::INFINITY,
         }
-        let mut draws = Stream::new(self.settings.seed, number, Purpose::Eddy, chance.eddies);
-        chance.eddies = chance.eddies.wrapping_add(1);
+        if crew.lanes[l].chance.kick_end <= crew.time[l] {
+            self.renew_kick(crew, l);
+            changed = true;
+        }
+        crew.stale[l] |= changed;
+        let (time, next) = (crew.time[l], crew.lanes[l].chance.next());
+        crew.stop[l] = if next > time { self.settings.until.min(next) } else { self.settings.until };
+    }
+
+    /// Ages the eddy; whether another one was met.
+    fn renew_eddy<const W: usize>(&self, walk: &RandomWalk, crew: &mut Crew<W>, l: usize, step: f64) -> bool {
+        let (x, v, _) = motion_of(&crew.motion, l);
         let nu = self.dynamics.fluid.kinematic_viscosity();
-        let eddy = walk.eddy(&local, nu, draws.normals(), draws.open_uniform());
-        let gust = add(local.velocity, walk.fluctuation(&eddy, &local, nu));
         let tau = self.dynamics.relaxation_time(&crew.bodies.sphere[l]);
-        let stay = walk.residence(&eddy, tau, norm(sub(gust, v)));
-        crew.bodies.eddy[l] = Some(eddy);
-        chance.eddy_end = time + stay.max(SHORTEST * tau);
+        let here = || walk.surroundings(|x| self.domain.fluid(x), x, nu, tau);
+        let lane = &mut crew.lanes[l];
+        let (time, number, chance) = (crew.time[l], lane.particle.number, &mut lane.chance);
+        // a plain walk's eddy lives as long as where it was met, once there is turbulence
+        let place = if walk.drift || chance.place == Surroundings::CALM { here() } else { chance.place };
+        chance.eddy = chance.eddy.after(&chance.place, &place, step);
+        chance.place = place;
+        let crossed = chance.crossed <= time;
+        let over = crossed || chance.eddy.is_over();
+        if over {
+            if !walk.drift {
+                chance.place = here();
+            }
+            let age = if crossed { 0.0 } else { chance.eddy.overdue() };
+            chance.eddy = walk.next_eddy(age, || {
+                let mut draws = Stream::new(self.settings.seed, number, Purpose::Eddy, chance.eddies);
+                chance.eddies = chance.eddies.wrapping_add(1);
+                (chance.eddies == 1, draws.normals(), draws.open_uniform())
+            });
+            let local = self.domain.fluid(x);
+            let gust = add(local.velocity, walk.fluctuation(chance.eddy.deviates, &local, nu));
+            chance.crossed = time + walk.crossing(chance.place.length, tau, norm(sub(gust, v)));
+            crew.bodies.eddy[l] = Some(chance.eddy);
+        }
+        let longest =
+            if walk.drift { chance.eddy.longest_step(&chance.place) } else { chance.eddy.rest(&chance.place) };
+        chance.look = chance.crossed.min(time + longest);
+        over
     }
 
     fn renew_kick<const W: usize>(&self, crew: &mut Crew<W>, l: usize) {
-        let (time, number) = (crew.lanes[l].time, crew.lanes[l].particle.number);
+        let (time, number) = (crew.time[l], crew.lanes[l].particle.number);
         let chance = &mut crew.lanes[l].chance;
         if !self.dynamics.brownian {
             chance.kick_end = f64::INFINITY;

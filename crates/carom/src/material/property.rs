@@ -237,6 +237,32 @@ impl<'de, Q: Deserialize<'de>> Deserialize<'de> for Written<Q> {
     }
 }
 
+/// A property, a bare value checked in its place; a table knows the place of its value and is checked later.
+fn checked<'de, D: Deserializer<'de>, Q: Deserialize<'de> + Copy>(
+    kind: PropertyKind,
+    si: impl Fn(Q) -> f64,
+    deserializer: D,
+) -> Result<Option<Written<Q>>, D::Error> {
+    let written = Written::<Q>::deserialize(deserializer)?;
+    if written.span.is_none() {
+        kind.check(&Property { value: si(written.value), ..Property::default() }).map_err(serde::de::Error::custom)?;
+    }
+    Ok(Some(written))
+}
+
+macro_rules! checked_by_kind {
+    ($($name:ident: $quantity:ty = $kind:ident),* $(,)?) => {$(
+        fn $name<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Written<$quantity>>, D::Error> {
+            checked(PropertyKind::$kind, |q: $quantity| q.0, deserializer)
+        }
+    )*};
+}
+
+checked_by_kind! {
+    density: Density = Density, young_modulus: Pressure = YoungModulus, poisson_ratio: Number = PoissonRatio,
+    surface_energy: SurfaceEnergy = SurfaceEnergy, yield_strength: Pressure = YieldStrength,
+}
+
 /// The keys of a material table; the short symbols of the command line are accepted too.
 #[derive(Debug, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -245,14 +271,14 @@ pub(super) struct Fields {
     #[serde(default)]
     pub aliases: Vec<String>,
     pub note: Option<String>,
-    #[serde(alias = "rho")]
+    #[serde(default, alias = "rho", deserialize_with = "density")]
     pub density: Option<Written<Density>>,
-    #[serde(alias = "E")]
+    #[serde(default, alias = "E", deserialize_with = "young_modulus")]
     pub young_modulus: Option<Written<Pressure>>,
-    #[serde(alias = "nu")]
+    #[serde(default, alias = "nu", deserialize_with = "poisson_ratio")]
     pub poisson_ratio: Option<Written<Number>>,
-    #[serde(alias = "gamma")]
+    #[serde(default, alias = "gamma", deserialize_with = "surface_energy")]
     pub surface_energy: Option<Written<SurfaceEnergy>>,
-    #[serde(alias = "sigma")]
+    #[serde(default, alias = "sigma", deserialize_with = "yield_strength")]
     pub yield_strength: Option<Written<Pressure>>,
 }

@@ -54,6 +54,16 @@ fn wrong_materials_are_refused_at_their_place() {
     assert!(e.starts_with("my.toml:2:11:") && e.contains("kg/m3"), "{e}");
     let e = refusal("[material.x]\npoisson_ratio = { value = 0.5 }\n");
     assert!(e.starts_with("my.toml:2:") && e.contains("0.5"), "{e}");
+    for (text, place) in [
+        ("[material.x]\ndensity = 8000\npoisson_ratio = 0.5\n", "my.toml:3:17: poisson_ratio = 0.5 is out of range; "),
+        ("[material.x]\nE = \"-3 GPa\"\n", "my.toml:2:5: young_modulus = -3000000000 Pa is out of range; "),
+    ] {
+        let e = refusal(text);
+        assert!(e.starts_with(place), "{e}");
+    }
+    let law = "normal = \"ea\"\nsphere = { rho = 8000, nu = 0.7 }\n";
+    let e = crate::spec::parse_law(law).expect_err("an impossible material").located("law.toml", law);
+    assert!(e.starts_with("law.toml:2:29: poisson_ratio = 0.7 is out of range; "), "{e}");
     let e = refusal("[material.x]\ndensty = 3\n");
     assert!(e.starts_with("my.toml:2:1:") && e.contains("densty"), "{e}");
     let e = refusal("[material.x]\nyoung_modulus = { value = \"3 GPa\", low = \"4 GPa\" }\n");

@@ -47,6 +47,19 @@ impl Piece {
         Ok(Self { from, to, origin, coefficients })
     }
 
+    /// Coefficients in powers of the angle itself, by Horner's scheme; without the zeros that end them.
+    fn about_zero(&self) -> Vec<f64> {
+        let mut sum: Vec<f64> = Vec::with_capacity(MAX_COEFFICIENTS);
+        for &c in self.coefficients.iter().rev().skip_while(|c| **c == 0.0) {
+            // sum · (angle − origin) + c
+            let lower: Vec<f64> = sum.iter().map(|s| -s * self.origin).chain([0.0]).collect();
+            sum.insert(0, 0.0);
+            sum.iter_mut().zip(lower).for_each(|(s, l)| *s += l);
+            sum[0] += c;
+        }
+        if sum.is_empty() { vec![0.0] } else { sum }
+    }
+
     #[inline(always)]
     fn at(&self, angle: f64) -> f64 {
         let x = angle.max(self.from).min(self.to) - self.origin;
@@ -108,6 +121,11 @@ impl AngleTable {
             pieces.push(Piece::new(from.to_radians(), to.to_radians(), 0.0, coefficients)?);
         }
         Ok(Self { pieces: pieces.into() })
+    }
+
+    /// Its pieces as [`AngleTable::piecewise_polynomial`] takes them: ends in degrees, coefficients in powers of the angle (rad).
+    pub fn pieces(&self) -> impl Iterator<Item = (f64, f64, Vec<f64>)> + '_ {
+        self.pieces.iter().map(|p| (p.from.to_degrees(), p.to.to_degrees(), p.about_zero()))
     }
 
     /// Value at an angle from the surface (rad), [0, π/2].

@@ -54,6 +54,7 @@ impl LawSpec {
         law.roughness = roughness.height;
         law.roughness_factor = roughness.factor;
         law.spacing = numbers.spacing;
+        law.scatter = self.scatter()?;
         law.validity = Validity::ROUGHNESS_EXTRAPOLATED.when(roughness.extrapolated && uses_roughness(&law.normal));
         Ok(law)
     }

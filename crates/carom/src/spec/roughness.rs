@@ -5,6 +5,7 @@ use super::check::{checked, need, not_negative, positive};
 use crate::error::SpecError;
 use crate::pair::Pair;
 use crate::roughness::{self, CALIBRATED_ROUGHNESS, RoughnessModel, fuller_tabor};
+use crate::scatter::{self, Scatter};
 
 /// How rough a surface is, and what that leaves of adhesion.
 #[derive(Clone, Copy)]
@@ -43,6 +44,18 @@ impl LawSpec {
             (None, Some(height)) => (roughness::factor(height, spacing), height > CALIBRATED_ROUGHNESS),
         };
         Ok(Roughness { height, factor, extrapolated })
+    }
+
+    /// The facets of a wall that scatters; none where Δγ is absent or 0.
+    pub(super) fn scatter(&self) -> Result<Option<Scatter>, SpecError> {
+        let angle = checked(
+            &self.roughness_angle,
+            "roughness_angle",
+            |a| a.0,
+            |a| (0.0..=scatter::LARGEST).contains(&a),
+            "the standard deviation lies between 0 and 30 deg, such as \"5 deg\"; a bare number is in radians",
+        )?;
+        Ok(angle.filter(|a| *a > 0.0).map(Scatter::new))
     }
 
     fn model(&self) -> RoughnessModel {

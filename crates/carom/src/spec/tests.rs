@@ -68,7 +68,7 @@ fn mistakes_are_refused_where_they_stand() {
 fn what_a_pair_lacks_is_named() {
     for (text, place, parts) in [
         ("sphere = \"coper\"\nsurface = \"aluminium\"\nnormal = \"ea\"\n", ":1:10", &["did you mean copper?"][..]),
-        ("sphere = { rho = 8000, E = \"190 GPa\", nu = 0.5 }\n", ":1:10", &["poisson_ratio = 0.5"]),
+        ("sphere = { rho = 8000, E = \"190 GPa\", nu = 0.5 }\n", ":1:44", &["poisson_ratio = 0.5"]),
         (
             "sphere = \"E=190GPa,nu=0.27\"\nsurface = \"silicon\"\nnormal = \"ea\"\nfriction = 0\n",
             ":3:10",
@@ -174,6 +174,11 @@ fn laws_are_found_by_name_among_other_tables() {
     assert!(parse_named_law(text, "glass").is_ok());
     let broken = text.replace("restitution = 0.9", "restitution = 1 nm");
     assert!(parse_named_law(&broken, "glass").is_err_and(|e| e.line_column(&broken).map(|p| p.0) == Some(6)));
+    let other = text.replace("[[wall]]", "[law.other]\nfrictoin = \"1 kg\"\n[law.none]\n[[wall]]");
+    assert_eq!(parse_named_law(&other, "glass").map(|l| l.restitution.is_some()), Ok(true), "another law is broken");
+    let e = parse_named_law(&other, "other").expect_err("a misspelt key");
+    assert!(e.line_column(&other).map(|p| p.0) == Some(9) && e.to_string().contains("did you mean friction?"), "{e}");
+    assert!(parse_named_law(&text.replace("law.glass", "law"), "friction").is_err_and(|e| e.span.is_some()));
     assert!(parse_named_law("x = 1\n", "glass").is_err_and(|e| e.to_string().contains("no [law.NAME] table")));
 }
 
@@ -210,4 +215,58 @@ fn fuller_and_tabors_factor_is_that_of_the_pair() {
     assert!(factor("roughness = \"1.6 nm\"\n").0 < c_r);
     assert_eq!(factor("roughness = \"1 um\"\n").0, 0.0);
     assert_eq!(factor("roughness = \"1 nm\"\nwork_of_adhesion = 0\n").0, 1.0);
+}
+
+#[test]
+fn every_key_survives_being_written() {
+    let text = r#"
+        sphere = { density = "2 g/cm3", young_modulus = "70 GPa", poisson_ratio = 0.3, surface_energy = 0.5 }
+        surface = "glass"
+        normal = ["adhesion-work", "hertz-damping", "plastic-tabor"]
+        tangential = "walton"
+        walton_beta = 0.4
+        friction = 0.2
+        roughness = "1 nm"
+        roughness_model = "fuller-tabor"
+        asperity_radius = "100 nm"
+        hertz_damping = "7 ms/m"
+        surface_curvature = "inf"
+        yield_velocity = 0.09
+        meyer_index = 2.29
+        interfacial_parameter = 1.1
+        equilibrium_spacing = "0.3 nm"
+        work_of_adhesion = "1.1 J/m2"
+        stiffness = "65 GPa"
+        plastic_constant = "145 MPa"
+    "#;
+    let library = Library::builtin();
+    let law = parse_law(text).expect("a law");
+    let written = law.to_toml("wall").expect("text");
+    let again = parse_named_law(&written, "wall").expect("it reads");
+    assert_eq!(again.to_toml("wall").expect("text"), written);
+    let [law, again] = [law, again].map(|l| l.compile(&library).expect("a law"));
+    assert_eq!((law.normal(), law.tangential()), (again.normal(), again.tangential()));
+    assert_eq!(law.density(), 2000.0);
+}
+
+#[test]
+fn curves_survive_being_written() {
+    for curve in [
+        "0.7",
+        "\"grant-tabakoff\"",
+        "{ polynomial = [0.993, -1.76, 1.56, -0.49] }",
+        "{ angle_deg = [10, 45, 90], value = [0.9, 0.7, 0.6] }",
+        "{ pieces = [{ from_deg = 0, to_deg = 30, polynomial = [0.5] }, { from_deg = 30, to_deg = 90, polynomial = [0.4, 0.1] }] }",
+    ] {
+        let kind = if curve == "0.7" { "constant" } else { "by-angle" };
+        let law = parse_law(&format!("normal = \"{kind}\"\nrestitution = {curve}\nfriction = 0.1\n")).expect("a law");
+        let again = parse_named_law(&law.to_toml("wall").expect("text"), "wall").expect("it reads");
+        let [law, again] = [law, again].map(|l| l.compile(&Library::builtin()).expect("a law"));
+        for degrees in 1..=90 {
+            let (s, c) = f64::from(degrees).to_radians().sin_cos();
+            let impact = crate::Impact::new(1e-4, [c, -s, 0.0], [0.0, 1.0, 0.0]);
+            let [a, b] = [&law, &again].map(|l| l.impact(&impact).expect("it approaches").restitution);
+            assert!((a - b).abs() < 1e-14, "{curve} at {degrees} degrees: {a} {b}");
+        }
+    }
 }

@@ -4,7 +4,7 @@ use super::Dimension;
 
 /// A text that is not the wanted quantity. `at` is the character (0-based) where reading stopped.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("\"{text}\": {message} (character {}); a {what} is wanted, such as \"{example}\"", at + 1)]
+#[error("\"{text}\": {message} (character {}); {} {what} is wanted, such as \"{example}\"", at + 1, article(what))]
 pub struct UnitError {
     /// The text as given.
     pub text: String,
@@ -16,6 +16,11 @@ pub struct UnitError {
     pub what: &'static str,
     /// A text that would be right.
     pub example: &'static str,
+}
+
+/// The article that goes with a kind of quantity.
+pub(super) fn article(what: &str) -> &'static str {
+    if what.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" }
 }
 
 /// What the caller wants to read.

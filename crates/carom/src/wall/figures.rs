@@ -116,6 +116,16 @@ impl Ledger {
 }
 
 impl WallLaw {
+    /// The share of the normal kinetic energy that a head-on impact at `speed` (m/s) leaves, 1 − Σ ε(v): e² where the sphere
+    /// rebounds, and below zero where the losses of a ledger ask for more than there is. So it tells how far a capture is from a rebound.
+    ///
+    /// # Errors
+    /// A diameter out of range.
+    pub fn energy_left(&self, speed: f64, diameter: f64) -> Result<f64, ImpactError> {
+        let size = self.size(diameter, None)?;
+        Ok(1.0 - self.normal.respond(speed, 0.0, &size).lost())
+    }
+
     /// The window of rebound for a sphere of diameter `diameter` (m): `Ok(None)` when it never rebounds. Table laws have none and
     /// answer with the whole range of speeds.
     ///

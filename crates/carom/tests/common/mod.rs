@@ -3,6 +3,8 @@
 // each test file uses its own part
 #![allow(dead_code)]
 
+pub mod motion;
+
 use carom::material::Library;
 use carom::{Impact, Outcome, Vec3, WallLaw};
 use std::sync::LazyLock;

@@ -72,7 +72,10 @@ pub enum TableError {
         /// What is wrong there.
         what: String,
     },
-    /// XML VTK.
-    #[error("flow table: XML VTK files (.vtr) are not read; save the grid as legacy VTK (.vtk) or as CSV")]
-    Xml,
+    /// A VTK XML file that cannot be read.
+    #[error("flow table, VTK XML: {what}")]
+    Xml {
+        /// What is wrong in it.
+        what: String,
+    },
 }

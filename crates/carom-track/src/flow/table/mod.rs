@@ -1,6 +1,6 @@
 //! Velocity (and k, ε) on the nodes of a rectilinear grid, interpolated linearly along each axis.
 //!
-//! CSV (legacy VTK too, see [`Table::from_vtk`]): a header with the columns `x, y, z, u, v, w` and optionally `k, epsilon`, SI units, one node a row, in any order,
+//! CSV (VTK too, see [`Table::from_vtk`] and [`Table::from_vtk_xml`]): a header with the columns `x, y, z, u, v, w` and optionally `k, epsilon`, SI units, one node a row, in any order,
 //! every node of the grid exactly once. A coordinate with one value, or left out, makes a table of fewer dimensions:
 //! nothing varies along it. `v` and `w` left out are zero. Outside the grid the nearest value on its boundary holds.
 //! The gradient is the interpolant's own: it jumps from cell to cell. A linear interpolant of a solenoidal field is
@@ -16,6 +16,7 @@
 mod csv;
 mod error;
 mod vtk;
+mod xml;
 
 pub use error::TableError;
 
@@ -91,18 +92,28 @@ pub struct Table {
 }
 
 impl Table {
-    /// Reads a file: legacy VTK by the ending `.vtk`, anything else as CSV.
+    /// Reads a file: VTK XML by the endings `.vtr` and `.vti`, legacy VTK by `.vtk`, anything else as CSV.
     ///
     /// # Errors
     /// [`TableError`], naming the file, line or node.
     pub fn load(path: &std::path::Path) -> Result<Self, TableError> {
-        let text =
-            std::fs::read(path).map_err(|source| TableError::File { path: path.display().to_string(), source })?;
-        let ending = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_ascii_lowercase();
+        let name = path.display().to_string();
+        match std::fs::read(path) {
+            Ok(bytes) => Self::from_file(&name, &bytes),
+            Err(source) => Err(TableError::File { path: name, source }),
+        }
+    }
+
+    /// Reads what is in a file of that name, as [`Table::load`] does.
+    ///
+    /// # Errors
+    /// [`TableError`], naming the line or node.
+    pub fn from_file(name: &str, bytes: &[u8]) -> Result<Self, TableError> {
+        let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending).to_ascii_lowercase();
         match ending.as_str() {
-            "vtk" => Self::from_vtk(&text),
-            "vtr" => Err(TableError::Xml),
-            _ => Self::from_csv(text.as_slice()),
+            "vtk" => Self::from_vtk(bytes),
+            "vtr" | "vti" => Self::from_vtk_xml(bytes),
+            _ => Self::from_csv(bytes),
         }
     }
 
@@ -121,6 +132,15 @@ impl Table {
     /// [`TableError`], naming the place.
     pub fn from_vtk(file: &[u8]) -> Result<Self, TableError> {
         vtk::read(file)
+    }
+
+    /// Reads VTK XML (`RectilinearGrid` or `ImageData` of one piece; ASCII or binary, inline or appended, plain or compressed with
+    /// zlib) with point data as in [`Table::from_vtk`].
+    ///
+    /// # Errors
+    /// [`TableError`], naming the array.
+    pub fn from_vtk_xml(file: &[u8]) -> Result<Self, TableError> {
+        xml::read(file)
     }
 
     /// Axes strictly rising and not empty; nodes with z running fastest.

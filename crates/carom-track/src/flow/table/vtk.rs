@@ -10,26 +10,38 @@ pub(super) fn read(file: &[u8]) -> Result<Table, TableError> {
     let axes = reader.geometry()?;
     let size = axes.each_ref().map(Vec::len);
     let arrays = reader.point_data(size[0] * size[1] * size[2])?;
+    table(axes, &arrays).map_err(|what| reader.error(what))
+}
+
+/// Point data.
+pub(super) struct Array {
+    pub name: String,
+    pub components: usize,
+    pub values: Vec<f64>,
+}
+
+/// Puts axes and arrays together: each array has a tuple for every node, x running fastest.
+pub(super) fn table(axes: [Vec<f64>; 3], arrays: &[Array]) -> Result<Table, String> {
+    let size = axes.each_ref().map(Vec::len);
     let pick = |names: &[&str]| arrays.iter().find(|a| names.iter().any(|n| a.name.eq_ignore_ascii_case(n)));
     let vectors: Vec<&Array> = arrays.iter().filter(|a| a.components == 3).collect();
     let velocity = match (pick(&["velocity", "u"]).filter(|a| a.components == 3), vectors.as_slice()) {
         (Some(named), _) => named,
         (None, [only]) => only,
-        _ => return Err(reader.error("no point vectors named velocity or U")),
+        _ => return Err("no point vectors named velocity or U".to_owned()),
     };
     let scalar = |name| pick(&[name]).filter(|a| a.components == 1);
     let (k, epsilon) = (scalar("k"), scalar("epsilon"));
     if k.is_some() != epsilon.is_some() {
-        return Err(reader.error("k and epsilon must both be there, or neither"));
+        return Err("k and epsilon must both be there, or neither".to_owned());
     }
     if let Some(bad) = [k, epsilon].into_iter().flatten().find(|a| a.values.iter().any(|v| *v < 0.0)) {
-        return Err(reader.error(format!("{} is negative somewhere", bad.name)));
+        return Err(format!("{} is negative somewhere", bad.name));
     }
     let mut nodes: Vec<Node> = Vec::with_capacity(velocity.values.len() / 3);
     for i in 0..size[0] {
         for j in 0..size[1] {
             for l in 0..size[2] {
-                // the file runs along x first
                 let n = i + size[0] * (j + size[1] * l);
                 let of = |a: Option<&Array>| a.map_or(0.0, |a| a.values[n]);
                 let [u, v, w] = [0, 1, 2].map(|c| velocity.values[3 * n + c]);
@@ -40,11 +52,12 @@ pub(super) fn read(file: &[u8]) -> Result<Table, TableError> {
     Ok(Table::new(axes, nodes, k.is_some()))
 }
 
-/// Point data.
-struct Array {
-    name: String,
-    components: usize,
-    values: Vec<f64>,
+/// Coordinates that do not rise are refused.
+pub(super) fn rising(axes: &[Vec<f64>; 3]) -> Result<(), String> {
+    match axes.iter().flat_map(|a| a.windows(2)).find(|w| w[0] >= w[1]) {
+        Some(w) => Err(format!("coordinates must rise, but {} follows {}", w[1], w[0])),
+        None => Ok(()),
+    }
 }
 
 struct Reader<'a> {
@@ -115,10 +128,8 @@ impl<'a> Reader<'a> {
             "STRUCTURED_POINTS" => self.origin_and_spacing(size)?,
             _ => return Err(self.error(format!("{kind} is not a rectilinear grid"))),
         };
-        match axes.iter().flat_map(|a| a.windows(2)).find(|w| w[0] >= w[1]) {
-            Some(w) => Err(self.error(format!("coordinates must rise, but {} follows {}", w[1], w[0]))),
-            None => Ok(axes),
-        }
+        rising(&axes).map_err(|what| self.error(what))?;
+        Ok(axes)
     }
 
     fn coordinates(&mut self, size: [usize; 3]) -> Result<[Vec<f64>; 3], TableError> {

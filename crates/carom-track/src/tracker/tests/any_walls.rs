@@ -28,8 +28,14 @@ impl Sink for Paths {
     }
 }
 
+/// Few cases unless `PROPTEST_CASES` asks for more.
+fn cases() -> ProptestConfig {
+    let default = ProptestConfig::default();
+    if std::env::var_os("PROPTEST_CASES").is_some() { default } else { ProptestConfig { cases: 48, ..default } }
+}
+
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(48))]
+    #![proptest_config(cases())]
 
     /// Whatever the walls, forces and laws: nothing gets through a wall, hovers, or is lost.
     #[test]
@@ -42,6 +48,7 @@ proptest! {
         diameter in 5e-6f64..2e-3,
         vacuum in any::<bool>(),
         block in any::<bool>(),
+        angle in prop::sample::select(vec![0.0, 5.0, 25.0]),
     ) {
         let wall = |name: &str, shape| Wall { name: name.into(), shape, contact_at: ContactAt::Surface, velocity: [0.0; 3] };
         let mut walls = vec![wall("room", Shape::Room(Room { min: [-0.02; 3], max: [0.02; 3] }))];
@@ -52,7 +59,7 @@ proptest! {
             let away = Mesh::block([0.004, -0.015, -0.015], [0.009, 0.015, 0.015]).unwrap();
             walls.push(wall("block", Shape::Mesh(away)));
         }
-        let behaviors: Vec<_> = walls.iter().map(|_| bounce(restitution)).collect();
+        let behaviors: Vec<_> = walls.iter().map(|_| rough_bounce(restitution, angle)).collect();
         let domain = Analytic::new(Flow::Uniform { velocity: wind }, walls);
         let mut d = dynamics(if vacuum { Drag::None } else { Drag::SchillerNaumann });
         d.forces.gravity = gravity;
@@ -87,4 +94,26 @@ proptest! {
             prop_assert!(energy(end.position, end.velocity) <= energy([0.0; 3], v) + 1e-9);
         }
     }
+}
+
+/// In the groove between two walls, where roundings alone keep a sphere from leaving one of them.
+#[test]
+fn a_sphere_driven_along_a_groove_comes_to_rest_in_it() {
+    let n = unit([0.04438786216286354, 0.10755382851353631, -0.14688404611707714]).unwrap();
+    let walls = vec![
+        plane("low", n.map(|c| -0.01 * c), n),
+        Wall {
+            shape: Shape::Mesh(Mesh::block([0.004, -0.015, -0.015], [0.009, 0.015, 0.015]).unwrap()),
+            ..plane("block", [0.0; 3], n)
+        },
+    ];
+    let behaviors = [bounce(0.0014863437283143086), bounce(0.0014863437283143086)];
+    let domain = Analytic::new(Flow::Uniform { velocity: [-1.0843897599167562, 3.6106815808456254, 0.0] }, walls);
+    let mut d = dynamics(Drag::SchillerNaumann);
+    d.forces.gravity = [-0.6904331635817815, 0.0, 0.0];
+    let v = [2.400293785861977, -4.988245807374214, 2.6474216303883624];
+    let p = Particle { diameter: 0.0005869892327772226, density: 2500.0, ..sphere(0, [0.0; 3], v) };
+    let log = track(&domain, &d, &behaviors, Settings { until: 0.5, max_steps: 3000, ..settings() }, &[p]);
+    assert_eq!(log.ends[0].fate, Fate::Settled);
+    assert!(log.ends[0].steps < 200, "{}", log.ends[0].steps);
 }

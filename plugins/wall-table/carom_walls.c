@@ -1,15 +1,18 @@
 /* The table of zones. One entry a line, words separated by blanks, `#` begins a comment:
  *
  *     materials mine.toml                      more materials for the laws below (optional)
- *     zone 5 floor walls.toml:glass            zone id, a name for messages, FILE:NAME of the law
+ *     zone 5 floor walls.toml:glass            Fluent: zone id, a name for messages, FILE:NAME of the law
+ *     zone floor walls.toml:glass              code_saturne: name of the zone, law
  *     zone 7 belt walls.toml:glass velocity 1 0 0
  *     zone 9 filter trap                       or escape
- *     spin 0                                   keep the spin in user scalars 0, 1 and 2
- *     deposit mass 0                           add up what sticks in user memory 0, impacts in 1 (or: deposit rate 0)
+ *     spin 0                                   keep the spin in user scalars (variables) 0, 1 and 2
+ *     deposit mass 0                           Fluent: add up what sticks in user memory 0, impacts in 1 (or: deposit rate 0)
+ *     record impacts                           code_saturne: write every impact to impacts.csv
  *
  * Files are looked for beside the table. */
 #include "carom_walls.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -55,8 +58,7 @@ static int number(reader *r, const char *word, const char *what, double *value)
     char *end;
 
     *value = strtod(word, &end);
-    /* NaN differs from itself, infinity times zero is NaN */
-    if (end == word || *end != '\0' || *value * 0.0 != 0.0) {
+    if (end == word || *end != '\0' || !isfinite(*value)) {
         return refuse(r, "'%s' is no number; %s is wanted", word, what);
     }
     return 0;
@@ -81,8 +83,8 @@ static int law(reader *r, carom_wall_zone *zone, const char *word)
     const char *colon = strrchr(word, ':');
 
     if (colon == NULL || colon == word || colon[1] == '\0' || (size_t)(colon - word) >= sizeof file) {
-        return refuse(r, "zone %d (%s): '%s' is no law; FILE:NAME, trap or escape is wanted, such as walls.toml:glass",
-                      zone->id, zone->name, word);
+        return refuse(r, "zone %s: '%s' is no law; FILE:NAME, trap or escape is wanted, such as walls.toml:glass",
+                      zone->name, word);
     }
     memcpy(file, word, (size_t)(colon - word));
     file[colon - word] = '\0';
@@ -91,7 +93,48 @@ static int law(reader *r, carom_wall_zone *zone, const char *word)
     }
     if (carom_law_from_file(path, colon + 1, r->materials[0] != '\0' ? r->materials : NULL, &zone->law)
         != CAROM_STATUS_OK) {
-        return refuse(r, "zone %d (%s): %s", zone->id, zone->name, carom_last_error());
+        return refuse(r, "zone %s: %s", zone->name, carom_last_error());
+    }
+    return 0;
+}
+
+/* The words of a zone from its name on: name, law and perhaps a velocity. */
+static int named_zone(reader *r, carom_wall_zone *zone, char **words, int n)
+{
+    int i;
+
+    if (strlen(words[0]) >= sizeof zone->name) {
+        return refuse(r, "the name '%s' is too long", words[0]);
+    }
+    strcpy(zone->name, words[0]);
+    for (i = 0; n == 6 && i < 3; i++) {
+        if (number(r, words[3 + i], "a velocity in m/s", &zone->velocity[i]) != 0) {
+            return -1;
+        }
+    }
+    if (strcmp(words[1], "trap") == 0) {
+        zone->kind = CAROM_WALL_TRAP;
+    } else if (strcmp(words[1], "escape") == 0) {
+        zone->kind = CAROM_WALL_ESCAPE;
+    } else {
+        return law(r, zone, words[1]);
+    }
+    return 0;
+}
+
+static int known_before(reader *r, const carom_wall_zone *zone)
+{
+    const carom_walls *walls = r->walls;
+    const int by_id = walls->key == CAROM_ZONES_BY_ID;
+    size_t i;
+
+    for (i = 0; i < walls->n; i++) {
+        const carom_wall_zone *there = &walls->zones[i];
+        if (by_id ? there->id == zone->id : strcmp(there->name, zone->name) == 0) {
+            return by_id ? refuse(r, "zone %d (%s) was given before, in line %d as %s", zone->id, zone->name, there->line,
+                                  there->name)
+                         : refuse(r, "zone %s was given before, in line %d", zone->name, there->line);
+        }
     }
     return 0;
 }
@@ -99,35 +142,20 @@ static int law(reader *r, carom_wall_zone *zone, const char *word)
 static int add_zone(reader *r, char **words, int n)
 {
     carom_walls *walls = r->walls;
+    const int by_id = walls->key == CAROM_ZONES_BY_ID, first = by_id ? 2 : 1;
     carom_wall_zone zone = {0}, *grown;
-    const carom_wall_zone *there;
-    int i;
 
-    if (n != 4 && !(n == 8 && strcmp(words[4], "velocity") == 0)) {
-        return refuse(r, "a zone has an id, a name and a law: zone 5 floor walls.toml:glass [velocity X Y Z]");
+    zone.id = -1;
+    zone.line = r->line;
+    if (n != first + 2 && !(n == first + 6 && strcmp(words[first + 2], "velocity") == 0)) {
+        return by_id ? refuse(r, "a zone has an id, a name and a law: zone 5 floor walls.toml:glass [velocity X Y Z]")
+                     : refuse(r, "a zone has a name and a law: zone floor walls.toml:glass [velocity X Y Z]");
     }
-    if (whole(r, words[1], "zone id", &zone.id) != 0) {
+    if (by_id && whole(r, words[1], "zone id", &zone.id) != 0) {
         return -1;
     }
-    there = carom_walls_find(walls, zone.id);
-    if (there != NULL) {
-        return refuse(r, "zone %d (%s) was given before, in line %d as %s", zone.id, words[2], there->line, there->name);
-    }
-    if (strlen(words[2]) >= sizeof zone.name) {
-        return refuse(r, "the name '%s' is too long", words[2]);
-    }
-    strcpy(zone.name, words[2]);
-    zone.line = r->line;
-    for (i = 0; n == 8 && i < 3; i++) {
-        if (number(r, words[5 + i], "a velocity in m/s", &zone.velocity[i]) != 0) {
-            return -1;
-        }
-    }
-    if (strcmp(words[3], "trap") == 0) {
-        zone.kind = CAROM_WALL_TRAP;
-    } else if (strcmp(words[3], "escape") == 0) {
-        zone.kind = CAROM_WALL_ESCAPE;
-    } else if (law(r, &zone, words[3]) != 0) {
+    if (named_zone(r, &zone, words + first, n - first) != 0 || known_before(r, &zone) != 0) {
+        carom_law_free(zone.law);
         return -1;
     }
     grown = realloc(walls->zones, (walls->n + 1) * sizeof *grown);
@@ -143,6 +171,7 @@ static int add_zone(reader *r, char **words, int n)
 static int entry(reader *r, char **words, int n)
 {
     carom_walls *walls = r->walls;
+    const int by_id = walls->key == CAROM_ZONES_BY_ID;
 
     if (strcmp(words[0], "zone") == 0) {
         return add_zone(r, words, n);
@@ -154,14 +183,19 @@ static int entry(reader *r, char **words, int n)
         return n == 2 ? whole(r, words[1], "user scalar", &walls->spin)
                       : refuse(r, "the first of three user scalars is wanted after spin: spin 0");
     }
-    if (strcmp(words[0], "deposit") == 0) {
+    if (strcmp(words[0], "record") == 0 && !by_id) {
+        return n == 2 && strlen(words[1]) < sizeof walls->record
+                   ? (strcpy(walls->record, words[1]), 0)
+                   : refuse(r, "the beginning of a file's name is wanted after record: record impacts");
+    }
+    if (strcmp(words[0], "deposit") == 0 && by_id) {
         if (n != 3 || (strcmp(words[1], "mass") != 0 && strcmp(words[1], "rate") != 0)) {
             return refuse(r, "mass or rate and the first of two user memories are wanted: deposit mass 0");
         }
         walls->deposit = words[1][0] == 'm' ? CAROM_DEPOSIT_MASS : CAROM_DEPOSIT_RATE;
         return whole(r, words[2], "user memory", &walls->memory);
     }
-    return refuse(r, "unknown entry '%s'; known are zone, materials, spin and deposit", words[0]);
+    return refuse(r, "unknown entry '%s'; known are zone, materials, spin and %s", words[0], by_id ? "deposit" : "record");
 }
 
 static int read_lines(reader *r, FILE *file)
@@ -184,10 +218,10 @@ static int read_lines(reader *r, FILE *file)
         }
     }
     r->line = 0;
-    return r->walls->n > 0 ? 0 : refuse(r, "no zone is given: zone 5 floor walls.toml:glass");
+    return r->walls->n > 0 ? 0 : refuse(r, "no zone is given");
 }
 
-int carom_walls_read(carom_walls *walls, const char *path, char *message, size_t room)
+int carom_walls_read(carom_walls *walls, const char *path, carom_zone_key key, char *message, size_t room)
 {
     reader r = {0};
     FILE *file;
@@ -195,6 +229,7 @@ int carom_walls_read(carom_walls *walls, const char *path, char *message, size_t
 
     memset(walls, 0, sizeof *walls);
     walls->spin = -1;
+    walls->key = key;
     r.walls = walls;
     r.message = message;
     r.room = room;
@@ -233,4 +268,23 @@ carom_wall_zone *carom_walls_find(const carom_walls *walls, int id)
         }
     }
     return NULL;
+}
+
+void carom_walls_draw(uint64_t seed, const double *numbers, int n, double draws[4])
+{
+    uint64_t state = seed, bits, z;
+    int i;
+
+    for (i = 0; i < n; i++) {
+        memcpy(&bits, &numbers[i], sizeof bits);
+        state = (state ^ bits) * UINT64_C(0x9E3779B97F4A7C15);
+        state ^= state >> 32;
+    }
+    for (i = 0; i < 4; i++) {
+        /* SplitMix64 (Steele, Lea & Flood 2014, doi:10.1145/2660193.2660195) */
+        z = state += UINT64_C(0x9E3779B97F4A7C15);
+        z = (z ^ (z >> 30)) * UINT64_C(0xBF58476D1CE4E5B9);
+        z = (z ^ (z >> 27)) * UINT64_C(0x94D049BB133111EB);
+        draws[i] = (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
+    }
 }

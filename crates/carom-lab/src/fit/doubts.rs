@@ -1,0 +1,148 @@
+//! What a reader of a fit should mind, with what would help.
+
+use super::bootstrap::Bootstrap;
+use super::parameter::Parameter;
+use super::problem::Problem;
+use super::solve::Minimum;
+use super::uncertainty::{Goodness, Uncertainty};
+use crate::experiment::Quantity;
+use carom_report::significant;
+
+/// Correlations beyond this are named.
+const STRONG: f64 = 0.95;
+
+/// Probabilities of χ² within this of 0 or 1 are named.
+const UNLIKELY: f64 = 0.01;
+
+pub(super) fn doubts(
+    problem: &Problem<'_>,
+    minimum: &Minimum,
+    model: &[f64],
+    known: &Uncertainty,
+    bootstrap: Option<&Bootstrap>,
+) -> Vec<String> {
+    let mut said = Vec::new();
+    let name = |n: usize| problem.free[n].parameter;
+    for n in (0..problem.free.len()).filter(|n| minimum.held[*n]) {
+        let others = if problem.free.len() > 1 { "; the others' errors take it as known" } else { "" };
+        said.push(format!(
+            "{} is at its bound {} and has no standard error{others}",
+            name(n),
+            significant(minimum.values[n], 4)
+        ));
+    }
+    for &n in &known.idle {
+        said.push(format!(
+            "{} changes nothing at any of the points and stays where it began; {}",
+            name(n),
+            wakes(name(n))
+        ));
+    }
+    if !known.entangled.is_empty() {
+        let names: Vec<Parameter> = known.entangled.iter().map(|n| name(*n)).collect();
+        let listed = names.iter().map(|p| p.name()).collect::<Vec<_>>().join(" and ");
+        said.push(format!("only a combination of {listed} is known from these data; {}", parts(&names)));
+    }
+    for a in 0..problem.free.len() {
+        for b in 0..a {
+            let r = known.correlation[a][b];
+            if r.abs() > STRONG {
+                said.push(format!(
+                    "the data hardly tell {} from {} (correlation {}); {}",
+                    name(b),
+                    name(a),
+                    significant(r, 3),
+                    parts(&[name(b), name(a)])
+                ));
+            }
+        }
+    }
+    said.extend(scatter(&known.goodness));
+    said.extend(fates(problem, model));
+    said.extend(disagreement(problem, known, bootstrap));
+    if let Some(failed) = bootstrap.map(|b| b.failed).filter(|f| *f > 0) {
+        said.push(format!("{failed} resampled fits did not settle and are left out of the bootstrap intervals"));
+    }
+    said
+}
+
+/// Where standard errors and resampling do not say the same.
+fn disagreement(problem: &Problem<'_>, known: &Uncertainty, bootstrap: Option<&Bootstrap>) -> Option<String> {
+    let all = known.standard_errors.iter().enumerate();
+    let unlike = all.filter_map(|(n, error)| {
+        let (low, high) = bootstrap?.interval(n)?;
+        let ratio = (high - low) / (2.0 * known.quantile * (*error)?);
+        (!(0.5..=2.0).contains(&ratio)).then(|| problem.free[n].parameter.name())
+    });
+    let names = unlike.collect::<Vec<_>>().join(" and ");
+    (!names.is_empty()).then(|| {
+        format!(
+            "standard error and resampling disagree about {names}: the law bends within the error, as it does where a point lies at the \
+             capture velocity; trust the bootstrap interval"
+        )
+    })
+}
+
+fn scatter(goodness: &Goodness) -> Option<String> {
+    if goodness.freedom == 0 {
+        return Some("no more values than parameters: nothing is left to judge the fit by".into());
+    }
+    let (chi, chance) = (goodness.reduced_chi_square?, goodness.probability?);
+    let chi_text = significant(chi, 3);
+    if chance < UNLIKELY {
+        return Some(format!(
+            "the points scatter more than their sigma says (reduced chi-square {chi_text}, chance {}): the law does not fit, or sigma \
+             is too small; with sigma scaled to the scatter the standard errors are {} times larger",
+            significant(chance, 1),
+            significant(chi.sqrt(), 3)
+        ));
+    }
+    (chance > 1.0 - UNLIKELY).then(|| {
+        format!("the points scatter less than their sigma says (reduced chi-square {chi_text}): sigma seems too large, and the errors too")
+    })
+}
+
+/// Points whose fate the law has wrong.
+fn fates(problem: &Problem<'_>, model: &[f64]) -> Vec<String> {
+    let lines = |wrong: fn(f64, f64) -> bool| {
+        let all = problem.observations.iter().zip(model);
+        let of = all.filter(|(o, m)| o.quantity == Quantity::Restitution && wrong(o.value, **m));
+        of.map(|(o, _)| o.point.line.to_string()).collect::<Vec<_>>()
+    };
+    let mut said = Vec::new();
+    for (lines, what) in [
+        (lines(|value, model| value > 0.0 && model <= 0.0), "rebound and the law captures them"),
+        (lines(|value, model| value <= 0.0 && model > 0.05), "stayed and the law lets them rebound"),
+    ] {
+        if !lines.is_empty() {
+            said.push(format!("{} of the spheres {what} (lines {})", lines.len(), lines.join(", ")));
+        }
+    }
+    said
+}
+
+/// What would tell parameters apart.
+fn parts(of: &[Parameter]) -> &'static str {
+    use Parameter as P;
+    let has = |p: P| of.contains(&p);
+    if has(P::RoughnessFactor) && has(P::WorkOfAdhesion) {
+        "they act as the one product C_R w^(2/3): give one of them"
+    } else if has(P::AdhesionDamping) && has(P::HertzDamping) {
+        "faster impacts and a second diameter help: C_A's share grows as v^(1/5) and falls with size, C_H's grows as v and does not"
+    } else if has(P::AdhesionDamping) {
+        "impacts close to the capture velocity fix adhesion by itself, fast ones its damping"
+    } else if has(P::PlasticConstant) {
+        "slow impacts, below the yield velocity, have no plastic loss and fix the other"
+    } else {
+        "a wider range of speeds, or a second diameter, helps; or give one of them"
+    }
+}
+
+/// What would give a parameter something to act on.
+fn wakes(parameter: Parameter) -> &'static str {
+    match parameter {
+        Parameter::PlasticConstant => "add impacts faster than the yield velocity",
+        Parameter::Friction => "add impacts closer to the surface, where the sphere slides to the end",
+        _ => "add impacts that rebound at other speeds, or leave it out",
+    }
+}

@@ -1,0 +1,62 @@
+//! The files a case names, and the number that tells a case from others.
+
+use std::cell::Cell;
+use std::fmt::{self, Debug, Write};
+use std::path::Path;
+
+/// FNV-1a: enough to tell an edited case from the one that was interrupted.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Fingerprint(u64);
+
+impl Fingerprint {
+    pub fn of(text: &str) -> Self {
+        Self(0xcbf2_9ce4_8422_2325).with(text.as_bytes())
+    }
+
+    fn with(self, bytes: &[u8]) -> Self {
+        Self(bytes.iter().fold(self.0, |h, b| (h ^ u64::from(*b)).wrapping_mul(0x0100_0000_01b3)))
+    }
+
+    /// With everything that `Debug` shows of a value, each number to its last digit.
+    pub fn with_value(mut self, value: &impl Debug) -> Self {
+        // a fingerprint takes every text
+        let _ = write!(self, "{value:?}");
+        self
+    }
+
+    pub fn number(self) -> u64 {
+        self.0
+    }
+}
+
+impl Write for Fingerprint {
+    fn write_str(&mut self, text: &str) -> fmt::Result {
+        *self = self.with(text.as_bytes());
+        Ok(())
+    }
+}
+
+/// Reads the files that a case names, beside it, and takes them into its fingerprint.
+pub(super) struct Files<'a> {
+    folder: &'a Path,
+    fingerprint: Cell<Fingerprint>,
+}
+
+impl<'a> Files<'a> {
+    /// Of a case with that text.
+    pub fn new(case: &'a Path, text: &str) -> Self {
+        Self { folder: case.parent().unwrap_or(Path::new("")), fingerprint: Cell::new(Fingerprint::of(text)) }
+    }
+
+    /// What is in a file.
+    pub fn read(&self, name: &str) -> std::io::Result<Vec<u8>> {
+        let bytes = std::fs::read(self.folder.join(name))?;
+        self.fingerprint.set(self.fingerprint.get().with(&bytes));
+        Ok(bytes)
+    }
+
+    /// Of the text and all files read.
+    pub fn fingerprint(&self) -> Fingerprint {
+        self.fingerprint.get()
+    }
+}

@@ -1,0 +1,128 @@
+use super::*;
+use crate::tables::{IMPACTS, TRAJECTORIES, TableFormat};
+
+fn records(path: &Path) -> Vec<csv::StringRecord> {
+    csv::Reader::from_path(path).unwrap().records().map(Result::unwrap).collect()
+}
+
+#[test]
+fn every_doubt_about_an_impact_is_in_its_row_and_counted() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = CASE.replace("friction = 0.2", "friction = 0.2\nroughness = \"1 nm\"");
+    let case = Case::from_toml(&text, Path::new("case.toml"), &Library::builtin()).unwrap();
+    let summary = run(&case, &options(folder.path(), 2), &Silent).unwrap();
+    let mut doubted = 0;
+    for row in records(&folder.path().join(LAYOUTS[IMPACTS].file(TableFormat::Csv))) {
+        // only the floor has a law
+        assert_eq!(&row[28], if &row[5] == "floor" { "roughness-extrapolated" } else { "" });
+        doubted += u64::from(!row[28].is_empty());
+    }
+    assert!(doubted > 1000);
+    assert_eq!(summary.doubts().collect::<Vec<_>>(), [("roughness-extrapolated", doubted)]);
+    let json: serde_json::Value =
+        serde_json::from_slice(&fs::read(folder.path().join("summary.json")).unwrap()).unwrap();
+    assert_eq!(json["validity"], serde_json::json!({ "roughness-extrapolated": doubted }));
+    assert_eq!(json["walls"]["floor"]["validity"], json["validity"]);
+    assert_eq!(json["walls"]["ceiling"]["validity"], serde_json::json!({}));
+}
+
+#[test]
+fn resuming_with_another_material_wall_or_flow_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let text = r#"
+        [flow]
+        kind = "table"
+        file = "flow.csv"
+        [[wall]]
+        name = "box"
+        stl = { file = "box.stl", unit = "1 mm" }
+        law = "wall"
+        [law.wall]
+        normal = "ea"
+        surface = "mine"
+        friction = 0.2
+        [[injection]]
+        material = "copper"
+        diameter = "200 um"
+        position = ["10 mm", "10 mm", "10 mm"]
+        velocity = ["2 m/s", "1 m/s", "-3 m/s"]
+        [run]
+        until = "1 ms"
+        "#;
+    let go = |changed: &str, resume| {
+        let is = |what: &str| changed == what;
+        fs::write(at("flow.csv"), if is("flow") { "x,u\n0,1\n1,3\n" } else { "x,u\n0,1\n1,2\n" }).unwrap();
+        fs::write(at("box.stl"), stl_box(if is("wall") { [50.0, 20.0, 31.0] } else { [50.0, 20.0, 30.0] })).unwrap();
+        let mut library = Library::builtin();
+        let gamma = if is("material") { 0.4 } else { 0.3 };
+        let mine = |name: &str, gamma: f64| {
+            format!(
+                "[material.{name}]\ndensity = 2500\nyoung_modulus = \"70 GPa\"\npoisson_ratio = 0.2\nsurface_energy = {gamma}\n"
+            )
+        };
+        library.extend_from_toml(&mine("mine", gamma)).unwrap();
+        // nothing here is made of it
+        library.extend_from_toml(&mine("other", if is("other") { 0.1 } else { 0.2 })).unwrap();
+        let case = Case::from_toml(text, &at("case.toml"), &library).unwrap();
+        run(&case, &RunOptions { resume, ..options(&at("out"), 1) }, &Silent)
+    };
+    go("nothing", false).unwrap();
+    for changed in ["flow", "wall", "material"] {
+        let error = go(changed, true).unwrap_err().to_string();
+        assert!(error.contains("the case, its materials or a file it names was changed"), "{changed}: {error}");
+    }
+    go("nothing", true).unwrap();
+    go("other", true).unwrap();
+}
+
+/// A name and values.
+type Array = (String, Vec<[u8; 8]>);
+
+/// The arrays of a VTK file as they were put, by name, and the number of points.
+fn arrays(path: &Path) -> (Vec<Array>, usize) {
+    let file = fs::read(path).unwrap();
+    let text = String::from_utf8_lossy(&file);
+    let attribute = |element: &str, key: &str| {
+        let from = element.find(&format!("{key}=\"")).unwrap() + key.len() + 2;
+        element[from..].split('"').next().unwrap().to_owned()
+    };
+    let piece = text.lines().find(|line| line.starts_with("<Piece")).unwrap();
+    let data = file.windows(2).position(|w| w == b"\n_").unwrap() + 2;
+    let all = text.lines().filter(|line| line.starts_with("<DataArray")).map(|element| {
+        let at = data + attribute(element, "offset").parse::<usize>().unwrap();
+        let length = u64::from_le_bytes(file[at..at + 8].try_into().unwrap()) as usize;
+        let values = file[at + 8..at + 8 + length].as_chunks::<8>().0.to_vec();
+        (attribute(element, "Name"), values)
+    });
+    (all.collect(), attribute(piece, "NumberOfPoints").parse().unwrap())
+}
+
+#[test]
+fn vtk_files_hold_the_tables_bit_for_bit() {
+    let folder = tempfile::tempdir().unwrap();
+    run(&case_with("trajectories = 20"), &options(folder.path(), 2), &Silent).unwrap();
+    let table = |layout: usize| records(&folder.path().join(LAYOUTS[layout].file(TableFormat::Csv)));
+    let float = |row: &csv::StringRecord, column: usize| row[column].parse::<f64>().unwrap().to_le_bytes();
+    let paths = table(TRAJECTORIES);
+    let kept: Vec<_> = table(IMPACTS).into_iter().filter(|r| ["capture", "settle", "trap"].contains(&&r[12])).collect();
+    for (file, rows, columns) in [
+        ("trajectories.vtp", &paths, [("time", vec![1]), ("spin", vec![8, 9, 10]), ("points", vec![2, 3, 4])]),
+        ("deposit.vtp", &kept, [("diameter", vec![6]), ("weight", vec![16]), ("points", vec![2, 3, 4])]),
+    ] {
+        let (arrays, points) = arrays(&folder.path().join(file));
+        assert_eq!(points, rows.len());
+        assert!(points > 100);
+        let find = |name: &str| &arrays.iter().find(|a| a.0 == name).unwrap().1;
+        for (name, columns) in columns {
+            let wanted: Vec<_> = rows.iter().flat_map(|r| columns.iter().map(|c| float(r, *c))).collect();
+            assert!(*find(name) == wanted, "{name}");
+        }
+        let connectivity = (0..points as u64).map(u64::to_le_bytes).collect::<Vec<_>>();
+        assert_eq!(*find("connectivity"), connectivity);
+        assert_eq!(find("offsets").last(), Some(&(points as u64).to_le_bytes()));
+    }
+    let (trajectories, _) = arrays(&folder.path().join("trajectories.vtp"));
+    let particles = &trajectories.iter().find(|a| a.0 == "particle").unwrap().1;
+    assert_eq!(*particles, (0..20u64).map(u64::to_le_bytes).collect::<Vec<_>>());
+}

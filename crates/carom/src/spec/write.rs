@@ -1,0 +1,86 @@
+//! A law back into its text form: what is written here, [`super::parse_named_law`] reads again. Quantities are bare SI numbers.
+
+use super::{At, CurvatureRadius, CurveSpec, LawSpec, NormalSpec};
+use crate::error::SpecError;
+use crate::material::MaterialRef;
+use serde::{Serialize, Serializer};
+use std::collections::BTreeMap;
+
+impl LawSpec {
+    /// The law as a text with one table, `[law.NAME]`.
+    ///
+    /// # Errors
+    /// None in practice.
+    ///
+    /// ```
+    /// use carom::spec::{parse_law, parse_named_law};
+    /// let law = parse_law("sphere = \"copper\"\nsurface = \"glass\"\nnormal = \"ea\"\nhertz_damping = \"7 ms/m\"\n")?;
+    /// let text = law.to_toml("glass")?;
+    /// assert!(text.starts_with("[law.glass]\nsphere = \"copper\"\n") && text.contains("hertz_damping = 0.007"));
+    /// assert_eq!(parse_named_law(&text, "glass")?.to_toml("glass")?, text);
+    /// # Ok::<(), carom::SpecError>(())
+    /// ```
+    pub fn to_toml(&self, name: &str) -> Result<String, SpecError> {
+        #[derive(Serialize)]
+        struct File<'a> {
+            law: BTreeMap<&'a str, &'a LawSpec>,
+        }
+        let file = File { law: BTreeMap::from([(name, self)]) };
+        toml::to_string(&file).map_err(|e| SpecError::new(format!("law {name}: {e}")))
+    }
+}
+
+impl<T: Serialize> Serialize for At<T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.value.serialize(serializer)
+    }
+}
+
+impl Serialize for CurvatureRadius {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_f64(self.0)
+    }
+}
+
+impl Serialize for NormalSpec {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Named(kind) => serializer.serialize_str(kind.name()),
+            Self::Losses(losses) => serializer.collect_seq(losses.iter().map(|l| l.name())),
+        }
+    }
+}
+
+impl Serialize for MaterialRef {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Name(name) => serializer.serialize_str(name),
+            Self::Inline(material) => {
+                serializer.collect_map(material.properties.iter().map(|(kind, p)| (kind.key(), p.value)))
+            }
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct Piece {
+    from_deg: f64,
+    to_deg: f64,
+    polynomial: Vec<f64>,
+}
+
+impl Serialize for CurveSpec {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Constant(value) => serializer.serialize_f64(*value),
+            Self::Named(name) => serializer.serialize_str(name),
+            Self::ByAngle(table) => {
+                let pieces: Vec<Piece> = table
+                    .pieces()
+                    .map(|(from_deg, to_deg, polynomial)| Piece { from_deg, to_deg, polynomial })
+                    .collect();
+                serializer.collect_map([("pieces", pieces)])
+            }
+        }
+    }
+}
