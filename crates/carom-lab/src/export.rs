@@ -102,8 +102,14 @@ pub enum Target<'a> {
 /// The text for the program, with how far it is from the law.
 ///
 /// # Errors
-/// A range that the law refuses: a diameter beyond its limits, or too large for a concave surface.
+/// A range that the law refuses: a diameter beyond its limits, or too large for a concave surface. A law that scatters: these
+/// conditions draw nothing.
 pub fn export(request: &Request, target: &Target) -> Result<String, LabError> {
+    if request.law.scatter().is_some() {
+        let message = "the law scatters (roughness_angle), and none of these conditions draws its facets; export the smooth wall with \
+                       --roughness-angle 0";
+        return Err(LabError::Model(message.to_owned()));
+    }
     match *target {
         Target::Fluent { degree, unit } => fluent::write(request, degree, unit),
         Target::OpenFoam { patch } => openfoam::write(request, patch),

@@ -3,9 +3,9 @@
 #![allow(clippy::needless_range_loop, reason = "one index runs through several arrays of lanes or components")]
 
 use crate::flow::{Flow, Local};
-use crate::geometry::{Meeting, Path, Plane, Room, Shape};
+use crate::geometry::{Ahead, Face, Meeting, Path, Shape};
 use crate::integrate::{Lanes, Lanes3};
-use crate::vector::{Vec3, dot};
+use crate::vector::Vec3;
 
 /// A space with a fluid and walls. A CFD mesh can be one too.
 pub trait Domain: Sync {
@@ -23,12 +23,15 @@ pub trait Domain: Sync {
     /// Where the centre of a sphere of that radius, on that path, first touches a wall.
     fn next_wall(&self, path: &Path, radius: f64) -> Option<Hit>;
 
-    /// For `W` paths (starts and control points 1 to 4 relative to them): `true` where surely no wall is met.
-    ///
-    /// A quick test that may say `false` too often.
+    /// What lies ahead of `W` paths (starts and control points 1 to 5 relative to them), as far as a look side by side tells.
     #[inline(always)]
-    fn clear<const W: usize>(&self, _start: &Lanes3<W>, _path: &[Lanes3<W>; 4], _radius: &Lanes<W>) -> [bool; W] {
-        [false; W]
+    fn ahead<const W: usize>(&self, _start: &Lanes3<W>, _path: &[Lanes3<W>; 5], _radius: &Lanes<W>) -> Ahead<W> {
+        Ahead::UNKNOWN
+    }
+
+    /// The hit on a face that [`Domain::ahead`] saw, with the centre at `x`, θ along the path.
+    fn hit(&self, _face: usize, _theta: f64, _x: Vec3, _radius: f64) -> Option<Hit> {
+        None
     }
 }
 
@@ -82,17 +85,8 @@ impl Wall {
 pub struct Analytic {
     flow: Flow,
     walls: Vec<Wall>,
-    /// Planes and rooms of the walls, each with whether a radius counts: for the quick test.
-    planes: Vec<(Plane, f64)>,
-    rooms: Vec<(Room, f64)>,
-    only_flat: bool,
-}
-
-/// Whether a path surely misses a flat wall: it starts clear of it and its lowest control point is, or it touches and
-/// every control point leads away.
-#[inline(always)]
-fn misses(gap: f64, lowest: f64, margin: f64) -> bool {
-    (lowest > 0.0) | ((gap > margin) & (gap + lowest > margin))
+    /// Planes and sides of rooms, for the look side by side; none if there are other walls too.
+    faces: Option<Vec<Face>>,
 }
 
 /// The distance that counts as touching: far below anything measured, above the rounding of positions.
@@ -104,17 +98,16 @@ fn slack(x: Vec3, radius: f64) -> f64 {
 impl Analytic {
     /// A flow and its walls.
     pub fn new(flow: Flow, walls: Vec<Wall>) -> Self {
-        let (mut planes, mut rooms) = (Vec::new(), Vec::new());
-        let mut only_flat = true;
-        for wall in &walls {
-            let share = wall.clearance(1.0);
+        let faces = walls.iter().enumerate().map(|(index, wall)| {
+            let face = |plane: &_| Face::new(plane, wall.clearance(1.0), index);
             match &wall.shape {
-                Shape::Plane(p) => planes.push((*p, share)),
-                Shape::Room(r) => rooms.push((*r, share)),
-                Shape::Cylinder(_) | Shape::Mesh(_) => only_flat = false,
+                Shape::Plane(p) => Some(vec![face(p)]),
+                Shape::Room(r) => Some(r.faces().iter().map(face).collect()),
+                Shape::Cylinder(_) | Shape::Mesh(_) => None,
             }
-        }
-        Self { flow, walls, planes, rooms, only_flat }
+        });
+        let faces = faces.collect::<Option<Vec<_>>>().map(|f| f.concat());
+        Self { flow, walls, faces }
     }
 
     /// The walls, in the order of their indices.
@@ -137,6 +130,7 @@ impl Domain for Analytic {
         matches!(self.flow, Flow::Still | Flow::Uniform { .. })
     }
 
+    #[inline(always)]
     fn next_wall(&self, path: &Path, radius: f64) -> Option<Hit> {
         let slack = slack(path.start, radius);
         let mut first: Option<Hit> = None;
@@ -150,33 +144,23 @@ impl Domain for Analytic {
     }
 
     #[inline(always)]
-    fn clear<const W: usize>(&self, start: &Lanes3<W>, path: &[Lanes3<W>; 4], radius: &Lanes<W>) -> [bool; W] {
-        let mut clear = [self.only_flat; W];
+    fn ahead<const W: usize>(&self, start: &Lanes3<W>, path: &[Lanes3<W>; 5], radius: &Lanes<W>) -> Ahead<W> {
+        let Some(faces) = &self.faces else { return Ahead::UNKNOWN };
         let mut margin = [0.0; W];
         for l in 0..W {
             margin[l] = 2.0 * slack([start[0][l], start[1][l], start[2][l]], radius[l]);
         }
-        for (plane, share) in &self.planes {
-            let n = plane.normal;
-            let level = dot(n, plane.point);
-            for l in 0..W {
-                let along = |p: &Lanes3<W>| n[0] * p[0][l] + n[1] * p[1][l] + n[2] * p[2][l];
-                let lowest = along(&path[0]).min(along(&path[1])).min(along(&path[2]).min(along(&path[3])));
-                clear[l] &= misses(along(start) - level - share * radius[l], lowest, margin[l]);
-            }
+        let mut ahead = Ahead::nothing(margin);
+        for (index, face) in faces.iter().enumerate() {
+            ahead.look(index, face, start, path, radius);
         }
-        for (room, share) in &self.rooms {
-            for c in 0..3 {
-                for l in 0..W {
-                    let [p, q, r, s] = [path[0][c][l], path[1][c][l], path[2][c][l], path[3][c][l]];
-                    let lowest = p.min(q).min(r.min(s));
-                    let highest = p.max(q).max(r.max(s));
-                    let reach = share * radius[l];
-                    clear[l] &= misses(start[c][l] - room.min[c] - reach, lowest, margin[l])
-                        & misses(room.max[c] - start[c][l] - reach, -highest, margin[l]);
-                }
-            }
-        }
-        clear
+        ahead
+    }
+
+    #[inline(always)]
+    fn hit(&self, face: usize, theta: f64, x: Vec3, radius: f64) -> Option<Hit> {
+        let face = self.faces.as_ref()?.get(face)?;
+        let wall_velocity = self.walls.get(face.wall)?.velocity;
+        Some(Hit { wall: face.wall, meeting: face.meeting(theta, x, radius), wall_velocity })
     }
 }

@@ -9,7 +9,7 @@ use crate::domain::Domain;
 use crate::flow::Fluid;
 use crate::force::{Drag, Eddy, Forces, RandomWalk, Sphere, relaxation_time};
 use crate::integrate::{Lanes, Lanes3, Motion, Rates};
-use crate::vector::{Vec3, add};
+use crate::vector::{Vec3, add, dot};
 
 /// What acts on the spheres of a run.
 #[derive(Clone, Copy, Debug)]
@@ -26,6 +26,7 @@ pub struct Dynamics {
 
 /// What the forces need of each sphere, worked out once.
 #[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
 pub struct Bodies<const W: usize> {
     /// The spheres.
     pub sphere: [Sphere; W],
@@ -73,7 +74,7 @@ impl<const W: usize> Bodies<W> {
 impl Dynamics {
     /// Only drag, gravity and buoyancy.
     #[inline(always)]
-    fn is_plain(&self) -> bool {
+    pub(crate) fn is_plain(&self) -> bool {
         self.forces.is_plain() && self.random_walk.is_none() && !self.brownian
     }
 
@@ -147,13 +148,12 @@ impl Dynamics {
         let slip = [difference(u[0], m.v[0]), difference(u[1], m.v[1]), difference(u[2], m.v[2])];
         let mut rate = bodies.drag_rate;
         if self.forces.drag != Drag::Stokes {
-            let per_speed = bodies.reynolds;
-            let mut reynolds = [0.0; W];
+            let mut squares = [0.0; W];
             for l in 0..W {
                 let (x, y, z) = (slip[0][l], slip[1][l], slip[2][l]);
-                reynolds[l] = per_speed[l] * x.mul_add(x, y.mul_add(y, z * z)).sqrt();
+                squares[l] = bodies.reynolds[l] * bodies.reynolds[l] * x.mul_add(x, y.mul_add(y, z * z));
             }
-            let factors = self.forces.drag.factors(&reynolds);
+            let factors = self.forces.drag.factors_of_squares(&squares);
             for l in 0..W {
                 rate[l] *= factors[l];
             }
@@ -165,6 +165,21 @@ impl Dynamics {
             }
             out.a[c] = a;
         }
+    }
+
+    /// A bound on how hard the forces press a sphere at velocity `v` against a wall with that normal, m/s²; infinite where
+    /// none is at hand.
+    #[inline(always)]
+    pub fn press_at_most<D: Domain>(&self, domain: &D, body: &Bodies<1>, x: Vec3, v: Vec3, normal: Vec3) -> f64 {
+        if !self.is_plain() {
+            return f64::INFINITY;
+        }
+        let u = domain.velocities(&x.map(|c| [c]));
+        let slip = [u[0][0] - v[0], u[1][0] - v[1], u[2][0] - v[2]];
+        let weight = body.weight.map(|w| w[0]);
+        let speed = slip[0].abs() + slip[1].abs() + slip[2].abs();
+        let drag = body.drag_rate[0] * Drag::at_most(body.reynolds[0] * speed);
+        drag * dot(slip, normal).abs() - dot(weight, normal)
     }
 
     fn full_rates<const W: usize, D: Domain>(

@@ -1,20 +1,25 @@
 //! One step of the equations of motion x″ = a(x, v, ω), ω′ = α(x, v, ω), with its error and its dense output.
 //!
-//! Dormand & Prince's embedded pair of orders 5 and 4 (1980, doi:10.1016/0771-050X(80)90013-3) with Shampine's
-//! fourth-order interpolant as given by Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I* (1993),
-//! II.6. Positions are eliminated from the stages (x′ = v), so a constant acceleration is integrated exactly whatever
-//! the step. Everything is written for `W` particles side by side, each with its own step; no operation mixes two of
-//! them, so a particle's bits do not depend on W or on its neighbours.
+//! Dormand & Prince's embedded pair of orders 5 and 4 (1980, doi:10.1016/0771-050X(80)90013-3) as given by Hairer, Nørsett
+//! & Wanner, *Solving Ordinary Differential Equations I* (1993), II.5. The path within a step is the quintic that has the
+//! position, velocity and acceleration of both ends (Hermite's interpolation); its error, h⁶ x⁽⁶⁾/46 080 at most, is of
+//! higher order than the step's. Spins follow Shampine's fourth-order interpolant (same book, II.6). Positions are
+//! eliminated from the stages (x′ = v), so a constant acceleration is integrated exactly whatever the step. Everything is
+//! written for `W` particles side by side, each with its own step; no operation mixes two of them, so a particle's bits
+//! do not depend on W or on its neighbours.
 
 #![allow(clippy::needless_range_loop, reason = "one index runs through several arrays of lanes or components")]
 
 /// One number per particle.
+///
+/// What holds such arrays is aligned to 64 bytes, as the widest vectors want it.
 pub type Lanes<const W: usize> = [f64; W];
 /// A vector per particle, component by component.
 pub type Lanes3<const W: usize> = [[f64; W]; 3];
 
 /// A particle's motion: position (m), velocity (m/s) and spin (rad/s) for `W` particles.
 #[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
 pub struct Motion<const W: usize> {
     /// Position, m.
     pub x: Lanes3<W>,
@@ -26,6 +31,7 @@ pub struct Motion<const W: usize> {
 
 /// Rates of change: acceleration (m/s²) and, where forces couple to it, angular acceleration (rad/s²).
 #[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
 pub struct Rates<const W: usize> {
     /// Acceleration, m/s².
     pub a: Lanes3<W>,
@@ -43,22 +49,24 @@ impl<const W: usize> Rates<W> {
     pub const ZERO: Self = Self { a: [[0.0; W]; 3], alpha: [[0.0; W]; 3] };
 }
 
-/// The result of one trial step. The control points are offsets from the start, in Bernstein form of degree 4 over
-/// the step: their first is zero and their last the whole change.
+/// The result of one trial step. The control points are offsets from the start, in Bernstein form over the step: their
+/// first is zero and their last the whole change.
 #[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
 pub struct Step<const W: usize> {
     /// Motion at the end.
     pub end: Motion<W>,
     /// Rates at the end: the first stage of the next step.
     pub rates: Rates<W>,
-    /// Control points 1 to 4 of the position.
-    pub path: [Lanes3<W>; 4],
-    /// Control points 1 to 4 of the velocity.
-    pub speed: [Lanes3<W>; 4],
+    /// Control points 1 to 5 of the position.
+    pub path: [Lanes3<W>; 5],
     /// Control points 1 to 4 of the spin (only where it changes).
     pub twist: [Lanes3<W>; 4],
-    /// Estimated error over the tolerated one: at most 1 to be accepted.
-    pub error: Lanes<W>,
+    /// Square of the estimated error over the tolerated one: at most 1 to be accepted.
+    pub error_squared: Lanes<W>,
+    /// Changes of velocity (m/s) and spin (rad/s) that each stage's rates would make over the step.
+    kicks: [Lanes3<W>; STAGES],
+    turns: [Lanes3<W>; STAGES],
 }
 
 impl<const W: usize> Step<W> {
@@ -66,11 +74,33 @@ impl<const W: usize> Step<W> {
     pub const ZERO: Self = Self {
         end: Motion::ZERO,
         rates: Rates::ZERO,
-        path: [[[0.0; W]; 3]; 4],
-        speed: [[[0.0; W]; 3]; 4],
+        path: [[[0.0; W]; 3]; 5],
         twist: [[[0.0; W]; 3]; 4],
-        error: [0.0; W],
+        error_squared: [0.0; W],
+        kicks: [[[0.0; W]; 3]; STAGES],
+        turns: [[[0.0; W]; 3]; STAGES],
     };
+
+    /// How far the path has come at θ in [0, 1], m, and the velocity there (the slope of the path, m/s) for steps of length
+    /// `h` > 0.
+    #[inline(always)]
+    pub fn along(&self, h: &Lanes<W>, theta: &Lanes<W>) -> (Lanes3<W>, Lanes3<W>) {
+        let [p, q, r, s, t] = &self.path;
+        let (mut offset, mut velocity) = ([[0.0; W]; 3], [[0.0; W]; 3]);
+        for c in 0..3 {
+            for l in 0..W {
+                let mut x = [0.0, p[c][l], q[c][l], r[c][l], s[c][l], t[c][l]];
+                for top in (2..6).rev() {
+                    for i in 0..top {
+                        x[i] += theta[l] * (x[i + 1] - x[i]);
+                    }
+                }
+                offset[c][l] = x[0] + theta[l] * (x[1] - x[0]);
+                velocity[c][l] = (x[1] - x[0]) * (5.0 / h[l]);
+            }
+        }
+        (offset, velocity)
+    }
 }
 
 const STAGES: usize = 7;
@@ -92,7 +122,7 @@ const C: [f64; STAGES] = [0.0, 1.0 / 5.0, 3.0 / 10.0, 4.0 / 5.0, 8.0 / 9.0, 1.0,
 const E: [f64; STAGES] =
     [71.0 / 57600.0, 0.0, -71.0 / 16695.0, 71.0 / 1920.0, -17253.0 / 339200.0, 22.0 / 525.0, -1.0 / 40.0];
 
-/// Weights of the interpolant's quartic term.
+/// Weights of the quartic term of the spin's interpolant.
 const D: [f64; STAGES] = [
     -12715105075.0 / 11282082432.0,
     0.0,
@@ -132,8 +162,13 @@ const AA: [[f64; 6]; STAGES] = {
     }
     out
 };
+
+/// Fifth- minus fourth-order weights of the accelerations in the position.
 const EA: [f64; 6] = through(&E);
-const DA: [f64; 6] = through(&D);
+/// Share of the position's error that counts where forces do not depend on the place. An error across a sheared flow turns
+/// into one of the velocity; in a uniform one it only catches the steps across a relative speed near zero, where drag is not
+/// smooth and the velocity's estimate may vanish by chance.
+const UNIFORM: f64 = 0.25;
 
 /// a b + c, lane by lane. Values in, a value out: the compiler then sees that nothing overlaps and keeps to vectors.
 #[inline(always)]
@@ -156,19 +191,19 @@ fn times<const W: usize>(s: f64, a: Lanes<W>) -> Lanes<W> {
 }
 
 #[inline(always)]
-fn minus<const W: usize>(a: Lanes<W>, b: Lanes<W>) -> Lanes<W> {
+fn plus<const W: usize>(a: Lanes<W>, b: Lanes<W>) -> Lanes<W> {
     let mut out = [0.0; W];
     for l in 0..W {
-        out[l] = a[l] - b[l];
+        out[l] = a[l] + b[l];
     }
     out
 }
 
 #[inline(always)]
-fn larger<const W: usize>(a: Lanes<W>, b: Lanes<W>) -> Lanes<W> {
+fn product<const W: usize>(a: Lanes<W>, b: Lanes<W>) -> Lanes<W> {
     let mut out = [0.0; W];
     for l in 0..W {
-        out[l] = a[l].max(b[l].abs());
+        out[l] = a[l] * b[l];
     }
     out
 }
@@ -176,10 +211,11 @@ fn larger<const W: usize>(a: Lanes<W>, b: Lanes<W>) -> Lanes<W> {
 /// Σⱼ wⱼ kⱼ, skipping weights that are zero. With constant weights nothing of the loop is left.
 #[inline(always)]
 fn weigh<const W: usize>(w: &[f64], k: &[Lanes3<W>; STAGES], component: usize) -> Lanes<W> {
-    let mut sum = [0.0; W];
+    let (mut sum, mut first) = ([0.0; W], true);
     for (w, k) in w.iter().zip(k) {
         if *w != 0.0 {
-            sum = fma([*w; W], k[component], sum);
+            sum = if first { times(*w, k[component]) } else { fma([*w; W], k[component], sum) };
+            first = false;
         }
     }
     sum
@@ -221,169 +257,152 @@ pub fn step<const W: usize>(
     derivative: &impl Derivative<W>,
     out: &mut Step<W>,
 ) {
-    let mut trial =
-        Trial { start, h, control, k: [[[0.0; W]; 3]; STAGES], kk: [[[0.0; W]; 3]; STAGES], at: *start, now: *first };
-    trial.k[0] = first.a;
-    trial.kk[0] = first.alpha;
-    trial.stage::<1>(derivative);
-    trial.stage::<2>(derivative);
-    trial.stage::<3>(derivative);
-    trial.stage::<4>(derivative);
-    trial.stage::<5>(derivative);
-    trial.stage::<6>(derivative);
-    let Trial { k, kk, at, now, .. } = trial;
-    out.end = at;
-    out.rates = now;
-    controls(start, first, h, control, &k, &kk, out);
-    out.error = error(start, h, control, &k, &kk, out);
+    let trial = Trial { start, h: *h, control };
+    trial.keep::<0>(first, out);
+    trial.stage::<1>(derivative, out);
+    trial.stage::<2>(derivative, out);
+    trial.stage::<3>(derivative, out);
+    trial.stage::<4>(derivative, out);
+    trial.stage::<5>(derivative, out);
+    (out.end, out.rates) = trial.stage::<6>(derivative, out);
+    for c in 0..3 {
+        let change = product(*h, plus(start.v[c], weigh(&AA[6], &out.kicks, c)));
+        out.end.x[c] = plus(start.x[c], change);
+        set(&mut out.path, c, quintic(*h, [start.v[c], out.end.v[c]], [out.kicks[0][c], out.kicks[6][c]], change));
+        if control.spins {
+            let change = weigh(&A[6], &out.turns, c);
+            let bend = weigh(&D, &out.turns, c);
+            set(&mut out.twist, c, quartic(out.turns[0][c], out.turns[6][c], change, bend));
+        }
+    }
+    out.error_squared = trial.error(out);
 }
 
 /// A step under way.
 struct Trial<'a, const W: usize> {
     start: &'a Motion<W>,
-    h: &'a Lanes<W>,
+    h: Lanes<W>,
     control: Control,
-    k: [Lanes3<W>; STAGES],
-    kk: [Lanes3<W>; STAGES],
-    at: Motion<W>,
-    now: Rates<W>,
 }
 
 impl<const W: usize> Trial<'_, W> {
     /// One stage; a constant, so that its weights are.
     #[inline(always)]
-    fn stage<const S: usize>(&mut self, derivative: &impl Derivative<W>) {
-        let (h, start) = (*self.h, self.start);
-        // the last stage is the end of the step: its place is wanted in any case
-        let place = self.control.place || S == STAGES - 1;
+    fn stage<const S: usize>(&self, derivative: &impl Derivative<W>, out: &mut Step<W>) -> (Motion<W>, Rates<W>) {
+        let start = self.start;
+        let mut at = *start;
         for c in 0..3 {
-            self.at.v[c] = fma(h, weigh(&A[S][..S], &self.k, c), start.v[c]);
-            if place {
-                let inner = fma(h, weigh(&AA[S][..S], &self.k, c), times(C[S], start.v[c]));
-                self.at.x[c] = fma(h, inner, start.x[c]);
+            at.v[c] = plus(start.v[c], weigh(&A[S][..S], &out.kicks, c));
+            if self.control.place {
+                let way = plus(times(C[S], start.v[c]), weigh(&AA[S][..S], &out.kicks, c));
+                // rounded as the path's last point is
+                at.x[c] = plus(start.x[c], product(self.h, way));
             }
             if self.control.spins {
-                self.at.spin[c] = fma(h, weigh(&A[S][..S], &self.kk, c), start.spin[c]);
+                at.spin[c] = plus(start.spin[c], weigh(&A[S][..S], &out.turns, c));
             }
         }
-        derivative.rates(&self.at, &mut self.now);
-        self.k[S] = self.now.a;
-        self.kk[S] = self.now.alpha;
+        let mut now = Rates::ZERO;
+        derivative.rates(&at, &mut now);
+        self.keep::<S>(&now, out);
+        (at, now)
     }
-}
 
-/// The control points of position, velocity and spin.
-#[inline(always)]
-fn controls<const W: usize>(
-    start: &Motion<W>,
-    first: &Rates<W>,
-    h: &Lanes<W>,
-    control: Control,
-    k: &[Lanes3<W>; STAGES],
-    kk: &[Lanes3<W>; STAGES],
-    out: &mut Step<W>,
-) {
-    let h = *h;
-    for c in 0..3 {
-        let (v0, v1) = (start.v[c], out.end.v[c]);
-        let dx = product(h, fma(h, weigh(&AA[6], k, c), v0));
-        set(&mut out.path, c, quartic(h, v0, v1, dx, product(h, weigh(&DA, k, c))));
-        let dv = product(h, weigh(&A[6], k, c));
-        set(&mut out.speed, c, quartic(h, first.a[c], out.rates.a[c], dv, weigh(&D, k, c)));
-        if control.spins {
-            let dw = product(h, weigh(&A[6], kk, c));
-            set(&mut out.twist, c, quartic(h, first.alpha[c], out.rates.alpha[c], dw, weigh(&D, kk, c)));
-        }
-    }
-}
-
-/// Control points 1 to 4 of a quantity whose rate is `r0` and `r1` at the ends, that changes by `change`, and whose
-/// interpolant has the quartic term `bend`, all for a step `h`.
-#[inline(always)]
-fn quartic<const W: usize>(h: Lanes<W>, r0: Lanes<W>, r1: Lanes<W>, change: Lanes<W>, bend: Lanes<W>) -> [Lanes<W>; 4] {
-    let mut swing = minus(r0, r1);
-    for l in 0..W {
-        swing[l] += bend[l];
-    }
-    let first = product(times(0.25, h), r0);
-    let second = fma(times(1.0 / 6.0, h), swing, times(0.5, change));
-    let third = fma(times(-0.25, h), r1, change);
-    [first, second, third, change]
-}
-
-#[inline(always)]
-fn product<const W: usize>(a: Lanes<W>, b: Lanes<W>) -> Lanes<W> {
-    let mut out = [0.0; W];
-    for l in 0..W {
-        out[l] = a[l] * b[l];
-    }
-    out
-}
-
-/// One component of four control points.
-#[inline(always)]
-fn set<const W: usize>(points: &mut [Lanes3<W>; 4], c: usize, q: [Lanes<W>; 4]) {
-    points[0][c] = q[0];
-    points[1][c] = q[1];
-    points[2][c] = q[2];
-    points[3][c] = q[3];
-}
-
-/// Largest error of a component over what is tolerated: of the velocity, `tolerance` times the speed and its change;
-/// of the position, `tolerance` times the distance that speed covers.
-#[inline(always)]
-fn error<const W: usize>(
-    start: &Motion<W>,
-    h: &Lanes<W>,
-    control: Control,
-    k: &[Lanes3<W>; STAGES],
-    kk: &[Lanes3<W>; STAGES],
-    out: &Step<W>,
-) -> Lanes<W> {
-    let h = *h;
-    let mut off = [0.0f64; W];
-    let mut size = [f64::MIN_POSITIVE; W];
-    for c in 0..3 {
-        off = larger(off, product(h, weigh(&E, k, c)));
-        off = larger(off, product(h, weigh(&EA, k, c)));
-        size = larger(size, start.v[c]);
-        size = larger(size, out.end.v[c]);
-        size = larger(size, product(h, k[0][c]));
-    }
-    let mut error = over(off, size, control.tolerance);
-    if control.spins {
-        let mut off = [0.0f64; W];
-        let mut size = [f64::MIN_POSITIVE; W];
+    #[inline(always)]
+    fn keep<const S: usize>(&self, rates: &Rates<W>, out: &mut Step<W>) {
         for c in 0..3 {
-            off = larger(off, product(h, weigh(&E, kk, c)));
-            size = larger(size, start.spin[c]);
-            size = larger(size, out.end.spin[c]);
-            size = larger(size, product(h, kk[0][c]));
+            out.kicks[S][c] = product(self.h, rates.a[c]);
+            if self.control.spins {
+                out.turns[S][c] = product(self.h, rates.alpha[c]);
+            }
         }
-        error = larger(error, over(off, size, control.tolerance));
     }
-    error
+
+    /// Square of the error over the tolerated one: of the velocity, `tolerance` times the speed; of the position (or a share of
+    /// that), `tolerance` times the distance that speed covers; of the spin, where it changes, the same as of the velocity.
+    /// What is not a number stays none.
+    #[inline(always)]
+    fn error(&self, out: &Step<W>) -> Lanes<W> {
+        let mut off = square(&E, &out.kicks);
+        let share = if self.control.place { 1.0 } else { UNIFORM };
+        off = plus(off, times(share * share, square(&EA, &out.kicks)));
+        let mut error = over(off, [&self.start.v, &out.end.v, &out.kicks[0]], self.control.tolerance);
+        if self.control.spins {
+            let spins = [&self.start.spin, &out.end.spin, &out.turns[0]];
+            error = plus(error, over(square(&E, &out.turns), spins, self.control.tolerance));
+        }
+        error
+    }
 }
 
+/// Control points 1 to 5 of a path with velocities `v` at the ends, on which the accelerations there would change the
+/// velocity by `kick` over the step `h`, and that ends at `change`.
 #[inline(always)]
-fn over<const W: usize>(off: Lanes<W>, size: Lanes<W>, tolerance: f64) -> Lanes<W> {
+fn quintic<const W: usize>(h: Lanes<W>, v: [Lanes<W>; 2], kick: [Lanes<W>; 2], change: Lanes<W>) -> [Lanes<W>; 5] {
+    let bend = times(0.05, h);
+    let away = product(times(0.2, h), v[0]);
+    let back = product(times(-0.2, h), v[1]);
+    let second = fma(bend, kick[0], times(2.0, away));
+    let third = fma(bend, kick[1], fma([2.0; W], back, change));
+    [away, second, third, plus(change, back), change]
+}
+
+/// Control points 1 to 4 of a quantity whose rates at the ends would change it by `first` and `last`, that changes by
+/// `change`, and whose interpolant has the quartic term `bend`.
+#[inline(always)]
+fn quartic<const W: usize>(first: Lanes<W>, last: Lanes<W>, change: Lanes<W>, bend: Lanes<W>) -> [Lanes<W>; 4] {
+    let swing = plus(fma([-1.0; W], last, first), bend);
+    let second = fma([1.0 / 6.0; W], swing, times(0.5, change));
+    [times(0.25, first), second, fma([-0.25; W], last, change), change]
+}
+
+/// One component of control points.
+#[inline(always)]
+fn set<const W: usize, const N: usize>(points: &mut [Lanes3<W>; N], c: usize, q: [Lanes<W>; N]) {
+    for (point, q) in points.iter_mut().zip(q) {
+        point[c] = q;
+    }
+}
+
+/// Σ over components of (Σⱼ wⱼ kⱼ)².
+#[inline(always)]
+fn square<const W: usize>(w: &[f64], k: &[Lanes3<W>; STAGES]) -> Lanes<W> {
+    let mut sum = [0.0; W];
+    for c in 0..3 {
+        let part = weigh(w, k, c);
+        sum = fma(part, part, sum);
+    }
+    sum
+}
+
+/// Square of an error over `tolerance` times the largest of some speeds.
+#[inline(always)]
+fn over<const W: usize>(error_squared: Lanes<W>, speeds: [&Lanes3<W>; 3], tolerance: f64) -> Lanes<W> {
+    // nothing that moves is slower
+    let mut largest = [1e-200; W];
+    for v in speeds {
+        let square = fma(v[0], v[0], fma(v[1], v[1], product(v[2], v[2])));
+        for l in 0..W {
+            largest[l] = if square[l] > largest[l] { square[l] } else { largest[l] };
+        }
+    }
     let mut out = [0.0; W];
     for l in 0..W {
-        out[l] = off[l] / (tolerance * size[l]);
+        out[l] = error_squared[l] / (tolerance * tolerance * largest[l]);
     }
     out
 }
 
-/// The factor by which the next step may be longer (or must be shorter), for an error over the tolerated one.
+/// The factor by which the next step may be longer (or must be shorter), for the square of an error over the tolerated
+/// one: the velocity's error goes with the fifth power of the step, the position's with the fourth of it.
 #[inline(always)]
-pub fn growth(error: f64) -> f64 {
-    // the error of the position, relative to the distance of the step, goes with its fourth power; what is not a number
-    // counts as large
-    let error = if error > 1e-4 { error } else { 1e-4 };
-    let error = if error < 1e4 { error } else { 1e4 };
-    // 0.9 error^(−1/4)
-    let factor = 0.9 / error.sqrt().sqrt();
-    factor.clamp(0.2, 5.0)
+pub fn growth(error_squared: f64, place: bool) -> f64 {
+    // what is not a number counts as large
+    let square = if error_squared < 1e8 { error_squared } else { 1e8 };
+    let square = if square > 1e-8 { square } else { 1e-8 };
+    let factor = 0.9 * carom::math::pow(square, if place { -0.125 } else { -0.1 });
+    let factor = if factor > 0.2 { factor } else { 0.2 };
+    if factor < 5.0 { factor } else { 5.0 }
 }
 
 #[cfg(test)]

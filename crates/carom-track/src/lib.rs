@@ -16,6 +16,7 @@ pub mod force;
 pub mod geometry;
 pub mod injection;
 pub mod integrate;
+mod lanes;
 pub mod random;
 pub mod record;
 mod rows;

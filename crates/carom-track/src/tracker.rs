@@ -6,17 +6,21 @@
 #![allow(clippy::needless_range_loop, reason = "one index runs through several arrays of lanes or components")]
 
 mod chance;
+mod crew;
 mod lane;
 mod meeting;
 mod removal;
 mod wall_jet;
+mod walls;
 
-use crate::domain::Domain;
+use crate::domain::{Domain, Hit};
 use crate::dynamics::{Bodies, Dynamics};
 use crate::force::Sphere;
-use crate::integrate::{Control, Derivative, Lanes, Lanes3, Motion, Rates, Step, growth, step};
+use crate::integrate::{Control, Derivative, Motion, Rates, growth, step};
+use crate::lanes::{bits, mask, take_lowest};
 use crate::record::{End, Fate, Sink};
 use crate::vector::Vec3;
+use crew::{Crew, motion_of};
 use lane::Lane;
 pub use removal::Removal;
 
@@ -102,8 +106,17 @@ pub struct Settings {
 }
 
 /// Local error of a step over the tolerance of a first impact. Errors of steps add up, and a shallow approach turns an
-/// error across the wall into a larger one of the time: up to 16 times the local one in a channel of 2000 random starts.
+/// error across the wall into a larger one of the time: docs/benchmarks.md says by how much.
 const PER_STEP: f64 = 1.0 / 30.0;
+/// Largest local error: beyond, the estimate says little of the error.
+const COARSEST: f64 = 1e-5;
+
+impl Settings {
+    /// Tolerated error of a step.
+    fn per_step(&self) -> f64 {
+        (PER_STEP * self.tolerance).min(COARSEST)
+    }
+}
 
 /// What happens where a particle meets a wall.
 #[derive(Clone, Debug)]
@@ -141,18 +154,6 @@ pub struct Tracker<'a, D> {
     pub behaviors: &'a [Behavior],
     /// How to track.
     pub settings: Settings,
-}
-
-/// The lanes at work.
-struct Crew<const W: usize> {
-    lanes: [Lane; W],
-    /// Which lanes have a particle.
-    busy: [bool; W],
-    motion: Motion<W>,
-    rates: Rates<W>,
-    bodies: Bodies<W>,
-    h: Lanes<W>,
-    step: Step<W>,
 }
 
 /// The forces on the spheres of all lanes.
@@ -207,20 +208,11 @@ impl<D: Domain> Tracker<'_, D> {
 
     #[inline(always)]
     fn run_lanes<const W: usize>(&self, particles: &mut dyn Iterator<Item = Particle>, sink: &mut dyn Sink) {
-        let mut crew = Crew::<W> {
-            lanes: [Lane::IDLE; W],
-            busy: [false; W],
-            motion: Motion::ZERO,
-            rates: Rates::ZERO,
-            bodies: Bodies::NONE,
-            h: [0.0; W],
-            step: Step::ZERO,
-        };
-        let control = Control {
-            tolerance: PER_STEP * self.settings.tolerance,
-            spins: self.dynamics.spins(),
-            place: self.dynamics.need_place(self.domain),
-        };
+        let mut crew = Crew::<W>::IDLE;
+        let spins = self.dynamics.spins();
+        let control =
+            Control { tolerance: self.settings.per_step(), spins, place: self.dynamics.need_place(self.domain) };
+        let mut hits = [(walls::NONE, [0.0; 3]); W];
         loop {
             let mut working = false;
             for l in 0..W {
@@ -233,9 +225,7 @@ impl<D: Domain> Tracker<'_, D> {
             if !working {
                 return;
             }
-            for l in 0..W {
-                crew.h[l] = if crew.busy[l] { crew.lanes[l].next_step(self.settings.until) } else { 0.0 };
-            }
+            crew.set_steps();
             if self.drifts() {
                 for l in 0..W {
                     if crew.busy[l] {
@@ -243,17 +233,24 @@ impl<D: Domain> Tracker<'_, D> {
                     }
                 }
             }
+            self.refresh(&mut crew);
             let forces = Acting { dynamics: self.dynamics, domain: self.domain, bodies: &crew.bodies };
             step(&crew.motion, &crew.rates, &crew.h, control, &forces, &mut crew.step);
-            let clear = self.domain.clear(&crew.motion.x, &crew.step.path, &crew.bodies.radius);
+            let ahead = self.domain.ahead(&crew.motion.x, &crew.step.path, &crew.bodies.radius);
             let mut factor = [0.0; W];
             for l in 0..W {
-                factor[l] = growth(crew.step.error[l]);
+                factor[l] = growth(crew.step.error_squared[l], control.place);
             }
+            let goes = crew.go_on(&ahead, &factor, &self.settings, spins);
+            let mut rest = [0; W];
             for l in 0..W {
-                if crew.busy[l] {
-                    self.advance(&mut crew, l, clear[l], factor[l], sink);
-                }
+                rest[l] = mask(crew.busy[l]) & !goes[l];
+            }
+            let met = self.find_walls(&crew, &ahead, &rest, &mut hits);
+            let mut rest = bits(&rest);
+            while let Some(l) = take_lowest(&mut rest) {
+                let hit = (met >> l & 1 == 1).then_some(&hits[l]);
+                self.advance(&mut crew, l, hit, factor[l], sink);
             }
         }
     }
@@ -269,16 +266,19 @@ impl<D: Domain> Tracker<'_, D> {
         }
         let trace = sink.start(&particle);
         crew.lanes[l] = Lane::new(particle, trace);
-        crew.busy[l] = true;
+        (crew.time[l], crew.stop[l], crew.steps[l]) = (particle.time, self.settings.until, 0);
+        (crew.busy[l], crew.quiet[l]) = (true, mask(!trace && !self.has_chance()));
         if particle.time >= self.settings.until {
             finish(crew, l, Fate::Airborne, None, sink);
             return;
         }
-        self.refresh(crew, l);
-        crew.lanes[l].step = self.first_step(crew, l);
+        self.refresh_one(crew, l);
+        crew.next[l] = self.first_step(crew, l);
         if self.has_chance() {
             self.renew(crew, l, 0.0);
         }
+        // all lanes at once cost little more than one
+        crew.stale[l] = true;
     }
 
     /// A first trial step, s: what the tolerance is likely to allow where forces change over the time in which they
@@ -290,16 +290,33 @@ impl<D: Domain> Tracker<'_, D> {
             speed = speed.max(crew.motion.v[c][l].abs());
             change = change.max(crew.rates.a[c][l].abs());
         }
-        let share = (PER_STEP * self.settings.tolerance * 1e3).sqrt().sqrt();
+        let share = (self.settings.per_step() * 1e3).sqrt().sqrt();
         let time = if speed > 0.0 && change > 0.0 { speed / change } else { 1.0 / crew.bodies.drag_rate[l] };
         if time.is_finite() { share * time } else { 1.0 }
     }
 
-    /// Rates of one lane after its motion was changed.
+    /// Rates of the lanes whose motion was changed. Where all come in one go, the others get the bits they have.
     #[inline(always)]
-    fn refresh<const W: usize>(&self, crew: &mut Crew<W>, l: usize) {
+    fn refresh<const W: usize>(&self, crew: &mut Crew<W>) {
+        if !crew.stale.contains(&true) {
+            return;
+        }
+        if self.dynamics.is_plain() {
+            self.dynamics.rates(self.domain, &crew.bodies, &crew.motion, &mut crew.rates);
+        } else {
+            for l in 0..W {
+                if crew.stale[l] {
+                    self.refresh_one(crew, l);
+                }
+            }
+        }
+        crew.stale = [false; W];
+    }
+
+    #[inline(always)]
+    fn refresh_one<const W: usize>(&self, crew: &mut Crew<W>, l: usize) {
         let (x, v, spin) = motion_of(&crew.motion, l);
-        let rates = self.rates_at(&crew.bodies, l, x, v, spin);
+        let rates = self.rates_at(&crew.bodies.one(l), x, v, spin);
         for c in 0..3 {
             crew.rates.a[c][l] = rates.a[c][0];
             crew.rates.alpha[c][l] = rates.alpha[c][0];
@@ -307,56 +324,63 @@ impl<D: Domain> Tracker<'_, D> {
     }
 
     #[inline(always)]
-    fn rates_at<const W: usize>(&self, bodies: &Bodies<W>, l: usize, x: Vec3, v: Vec3, spin: Vec3) -> Rates<1> {
+    fn rates_at(&self, body: &Bodies<1>, x: Vec3, v: Vec3, spin: Vec3) -> Rates<1> {
         let column = |v: Vec3| [[v[0]], [v[1]], [v[2]]];
         let one = Motion::<1> { x: column(x), v: column(v), spin: column(spin) };
         let mut rates = Rates::ZERO;
-        self.dynamics.rates(self.domain, &bodies.one(l), &one, &mut rates);
+        self.dynamics.rates(self.domain, body, &one, &mut rates);
         rates
     }
 
     /// Takes a trial step of one lane: refuses it, accepts it, or ends it at a wall.
     #[inline(always)]
-    fn advance<const W: usize>(&self, crew: &mut Crew<W>, l: usize, clear: bool, factor: f64, sink: &mut dyn Sink) {
+    fn advance<const W: usize>(
+        &self,
+        crew: &mut Crew<W>,
+        l: usize,
+        hit: Option<&(Hit, Vec3)>,
+        factor: f64,
+        sink: &mut dyn Sink,
+    ) {
         let h = crew.h[l];
-        let good = crew.step.error[l] <= 1.0;
-        let lane = &mut crew.lanes[l];
-        lane.steps += 1;
-        if lane.steps > self.settings.max_steps || (!good && lane.time + h == lane.time) {
+        let good = crew.step.error_squared[l] <= 1.0;
+        if crew.steps[l] > self.settings.max_steps || (!good && crew.time[l] + h == crew.time[l]) {
             sink.stalled();
             finish(crew, l, Fate::Airborne, None, sink);
-            return;
-        }
-        if !good {
-            lane.step = h * factor.min(0.9);
-            return;
-        }
-        if !clear && let Some(hit) = self.domain.next_wall(&path_of(crew, l), crew.bodies.radius[l]) {
-            let lane = &mut crew.lanes[l];
+        } else if !good {
+            crew.next[l] = h * factor.min(0.9);
+        } else if let Some((hit, velocity)) = hit {
             let theta = hit.meeting.theta;
-            if theta > 0.0 && theta < 1e-3 && !lane.fitted {
+            if theta > 0.0 && theta < 1e-3 && !crew.lanes[l].fitted {
                 // far down a long step the root keeps too few digits: look again with a step that fits
-                lane.step = 2.0 * theta * h;
-                lane.fitted = true;
+                crew.next[l] = 2.0 * theta * h;
+                crew.lanes[l].fitted = true;
             } else {
-                self.meet(crew, l, &hit, sink);
+                self.meet(crew, l, hit, *velocity, sink);
             }
-            return;
+            crew.quiet[l] = mask(crew.lanes[l].is_quiet() && !self.has_chance());
+        } else {
+            self.accept(crew, l, factor, sink);
         }
+    }
+
+    /// Takes the whole step of one lane.
+    #[inline(always)]
+    fn accept<const W: usize>(&self, crew: &mut Crew<W>, l: usize, factor: f64, sink: &mut dyn Sink) {
+        let h = crew.h[l];
         if crew.lanes[l].trace {
             lane::trace(crew, l, 1.0, sink);
         }
-        let lane = &mut crew.lanes[l];
-        let stop = lane.stop(self.settings.until);
-        let stopped = h >= stop - lane.time;
-        lane.time = if stopped { stop } else { lane.time + h };
-        let last = stopped && stop >= self.settings.until;
+        let stop = crew.stop[l];
+        let stopped = h >= stop - crew.time[l];
+        crew.time[l] = if stopped { stop } else { crew.time[l] + h };
         // a step cut short by a stop says little of the next
         if !stopped || factor < 1.0 {
-            lane.step = h * factor;
+            crew.next[l] = h * factor;
         }
-        lane.fitted = false;
-        lane.standing = 0;
+        let lane = &mut crew.lanes[l];
+        (lane.fitted, lane.standing) = (false, 0);
+        crew.quiet[l] = mask(lane.is_quiet() && !self.has_chance());
         for c in 0..3 {
             crew.motion.x[c][l] = crew.step.end.x[c][l];
             crew.motion.v[c][l] = crew.step.end.v[c][l];
@@ -364,7 +388,7 @@ impl<D: Domain> Tracker<'_, D> {
             crew.rates.a[c][l] = crew.step.rates.a[c][l];
             crew.rates.alpha[c][l] = crew.step.rates.alpha[c][l];
         }
-        if last {
+        if stopped && stop >= self.settings.until {
             finish(crew, l, Fate::Airborne, None, sink);
         } else if self.has_chance() {
             self.renew(crew, l, h);
@@ -372,38 +396,24 @@ impl<D: Domain> Tracker<'_, D> {
     }
 }
 
-/// Position, velocity and spin of one lane.
-#[inline(always)]
-fn motion_of<const W: usize>(m: &Motion<W>, l: usize) -> (Vec3, Vec3, Vec3) {
-    let at = |v: &Lanes3<W>| [v[0][l], v[1][l], v[2][l]];
-    (at(&m.x), at(&m.v), at(&m.spin))
-}
-
-#[inline(always)]
-fn path_of<const W: usize>(crew: &Crew<W>, l: usize) -> crate::geometry::Path {
-    let x = &crew.motion.x;
-    let start = [x[0][l], x[1][l], x[2][l]];
-    crate::geometry::Path { start, points: lane::points(&crew.step.path, l) }
-}
-
 /// Tells the sink how a lane's particle ended; the lane is free then.
 #[inline(always)]
 fn finish<const W: usize>(crew: &mut Crew<W>, l: usize, fate: Fate, wall: Option<usize>, sink: &mut dyn Sink) {
-    crew.busy[l] = false;
+    (crew.busy[l], crew.quiet[l]) = (false, 0);
     let lane = &crew.lanes[l];
     let (position, velocity, spin) = motion_of(&crew.motion, l);
     if lane.trace {
-        sink.point(lane.particle.number, lane.time, position, velocity, spin);
+        sink.point(lane.particle.number, crew.time[l], position, velocity, spin);
     }
     sink.end(&End {
         particle: lane.particle,
         fate,
         wall,
-        time: lane.time,
+        time: crew.time[l],
         position,
         velocity,
         spin,
-        steps: lane.steps,
+        steps: crew.steps[l],
     });
 }
 

@@ -102,20 +102,20 @@ fn log2(x: f64) -> f64 {
     let z = s * s;
     let z2 = z * z;
     let z4 = z2 * z2;
-    const C: [f64; 12] = {
-        let mut c = [0.0; 12];
-        let mut n = 0;
-        while n < 12 {
-            c[n] = 2.0 * LOG2_E / (2 * n + 1) as f64;
-            n += 1;
-        }
-        c
-    };
-    let a = z2.mul_add(z.mul_add(C[4], C[3]), z.mul_add(C[2], C[1]));
-    let b = z2.mul_add(z.mul_add(C[8], C[7]), z.mul_add(C[6], C[5]));
-    let c = z2.mul_add(C[11], z.mul_add(C[10], C[9]));
-    let p = z4.mul_add(z4.mul_add(c, b), a);
-    (s * z).mul_add(p, s.mul_add(C[0], k))
+    // (artanh(s)/s − 1)/z · 2/ln 2 to a relative 2e-18 of log₂ m: best approximation of degree six, by Remez' exchange
+    const C: [f64; 7] = [
+        0.961_796_693_925_985_4,
+        0.577_078_016_347_130_7,
+        0.412_198_585_580_056_44,
+        0.320_598_556_513_415_2,
+        0.262_333_396_302_315_7,
+        0.220_934_625_579_232_3,
+        0.213_464_901_520_120_87,
+    ];
+    let a = z2.mul_add(z.mul_add(C[3], C[2]), z.mul_add(C[1], C[0]));
+    let b = z2.mul_add(C[6], z.mul_add(C[5], C[4]));
+    let p = z4.mul_add(b, a);
+    (s * z).mul_add(p, s.mul_add(2.0 * LOG2_E, k))
 }
 
 /// 2^t.
@@ -126,21 +126,25 @@ fn exp2(t: f64) -> f64 {
     let t = if t > 1022.0 { 1022.0 } else { t };
     let shifted = t + SHIFT;
     let r = t - (shifted - SHIFT);
-    const C: [f64; 14] = {
-        let mut c = [1.0; 14];
-        let mut n = 1;
-        while n < 14 {
-            c[n] = c[n - 1] * LN_2 / n as f64;
-            n += 1;
-        }
-        c
-    };
+    // (2^r − 1 − r ln 2)/r² to 4e-18 of 2^r: best approximation of degree nine
+    const C: [f64; 10] = [
+        0.240_226_506_959_101_22,
+        0.055_504_108_664_820_73,
+        0.009_618_129_107_596_99,
+        0.001_333_355_814_668_604_8,
+        1.540_353_045_405_673e-4,
+        1.525_273_354_692_432_2e-5,
+        1.321_543_661_421_405_2e-6,
+        1.017_818_463_938_340_6e-7,
+        7.073_578_420_173_589e-9,
+        4.436_304_380_985_355e-10,
+    ];
     let r2 = r * r;
     let r4 = r2 * r2;
-    let a = r2.mul_add(r.mul_add(C[5], C[4]), r.mul_add(C[3], C[2]));
-    let b = r2.mul_add(r.mul_add(C[9], C[8]), r.mul_add(C[7], C[6]));
-    let c = r2.mul_add(r.mul_add(C[13], C[12]), r.mul_add(C[11], C[10]));
-    let p = r2.mul_add(r4.mul_add(r4.mul_add(c, b), a), r * C[1]) + 1.0;
+    let a = r2.mul_add(r.mul_add(C[3], C[2]), r.mul_add(C[1], C[0]));
+    let b = r2.mul_add(r.mul_add(C[7], C[6]), r.mul_add(C[5], C[4]));
+    let c = r.mul_add(C[9], C[8]);
+    let p = r2.mul_add(r4.mul_add(r4.mul_add(c, b), a), r * LN_2) + 1.0;
     f64::from_bits(p.to_bits().wrapping_add(shifted.to_bits() << 52))
 }
 

@@ -2,26 +2,31 @@
 
 use super::bernstein::Bernstein;
 
+/// Whether a path surely misses a flat wall: every control point leads away, or it starts clear of the wall and its lowest
+/// control point is. `gap` is the distance at the start, `lowest` the least change of it; up to `slack` counts as touching.
+#[inline(always)]
+pub fn misses(gap: f64, lowest: f64, slack: f64) -> bool {
+    (lowest > 0.0) | ((gap > slack) & (gap + lowest > slack))
+}
+
 /// The first θ in [0, 1] at which the distance `start` + `change`(θ) comes down to zero.
 ///
 /// A sphere that touches (`start` ≤ `slack`) is in contact at once if it approaches; if it leaves, the next contact is
 /// where it comes back to the distance it left from, found after dividing the root at θ = 0 out, so that neither
 /// rounding nor a very low bounce makes it sink or hover.
-#[inline]
+#[inline(always)]
 pub fn first_contact<const N: usize>(
     start: f64,
     change: &Bernstein<N>,
     slack: f64,
     mut accept: impl FnMut(f64) -> bool,
 ) -> Option<f64> {
-    if start > slack {
-        return change.scaled(1.0, start).first_descent(accept);
-    }
-    let leaving = change.deflated();
-    if leaving.leads_down() && accept(0.0) {
+    let touches = start <= slack;
+    let gap = if touches { change.deflated() } else { change.scaled(1.0, start) };
+    if touches && gap.leads_down() && accept(0.0) {
         return Some(0.0);
     }
-    leaving.first_descent(accept)
+    gap.first_descent(accept)
 }
 
 /// [`first_contact`] of a surface that ends somewhere: a sphere deep within its clearance is beside it, not in contact, and

@@ -40,7 +40,7 @@ impl Cylinder {
         scale(r, if self.inside { -1.0 } else { 1.0 } / rho)
     }
 
-    /// Where a path first comes within `clearance`: a root of the squared distance from the axis, of degree eight.
+    /// Where a path first comes within `clearance`: a root of the squared distance from the axis, of degree ten.
     pub fn meet(&self, path: &Path, clearance: f64, slack: f64) -> Option<Meeting> {
         let sign: f64 = if self.inside { -1.0 } else { 1.0 };
         let limit = self.radius + sign * clearance;
@@ -51,9 +51,9 @@ impl Cylinder {
         let rho0 = dot(r0, r0).sqrt();
         let gap = sign * (rho0 - limit);
         let points = path.points.map(|p| self.across(p));
-        let mut change = Bernstein([0.0; 9]);
+        let mut change = Bernstein([0.0; 11]);
         for c in 0..3 {
-            let p = Bernstein([0.0, points[0][c], points[1][c], points[2][c], points[3][c]]);
+            let p = Bernstein([0.0, points[0][c], points[1][c], points[2][c], points[3][c], points[4][c]]);
             let shifted = p.scaled(1.0, 2.0 * r0[c]);
             change = change.plus(&p.times(&shifted));
         }

@@ -238,11 +238,11 @@ fn corner(a: Vec3, path: &Path, clearance: f64, slack: f64) -> Option<f64> {
 }
 
 /// |r₀ + p(θ)|² − c² at the start, and how it changes.
-fn square(r0: Vec3, points: &[Vec3; 4], clearance: f64) -> (f64, Bernstein<9>) {
+fn square(r0: Vec3, points: &[Vec3; 5], clearance: f64) -> (f64, Bernstein<11>) {
     let rho = norm(r0);
-    let mut change = Bernstein([0.0; 9]);
+    let mut change = Bernstein([0.0; 11]);
     for c in 0..3 {
-        let p = Bernstein([0.0, points[0][c], points[1][c], points[2][c], points[3][c]]);
+        let p = Bernstein([0.0, points[0][c], points[1][c], points[2][c], points[3][c], points[4][c]]);
         change = change.plus(&p.times(&p.scaled(1.0, 2.0 * r0[c])));
     }
     ((rho - clearance) * (rho + clearance), change)
@@ -323,7 +323,7 @@ mod tests {
     #[test]
     fn a_path_around_an_edge_meets_the_far_side() {
         // from above, past the edge, under the triangle and up against its lower side
-        let points = [[0.0, -0.5, -3.3], [0.0, -4.0, -3.3], [0.0, -4.0, 1.7], [0.0, 0.0, 0.0]];
+        let points = [[0.0, -0.4, -2.64], [0.0, -2.6, -3.3], [0.0, -4.0, -1.3], [0.0, -3.2, 1.36], [0.0, 0.0, 0.0]];
         let path = Path { start: [0.2, 1.0, 0.3], points };
         let m = Mesh::new(vec![FLAT]).unwrap().meet(&path, 0.1, 1e-12).unwrap();
         assert_eq!(m.normal, [0.0, -1.0, 0.0], "{m:?}");

@@ -7,6 +7,7 @@
 pub mod bernstein;
 mod contact;
 mod cylinder;
+mod faces;
 mod mesh;
 mod path;
 mod plane;
@@ -14,6 +15,8 @@ mod room;
 
 pub use bernstein::Bernstein;
 pub use cylinder::Cylinder;
+pub use faces::Ahead;
+pub(crate) use faces::Face;
 pub use mesh::{Mesh, Triangle};
 pub use path::{Path, evaluate};
 pub use plane::Plane;
@@ -57,6 +60,7 @@ impl Shape {
     }
 
     /// Where a path first comes within `clearance` of the shape. `slack` is the distance that counts as touching.
+    #[inline(always)]
     pub fn meet(&self, path: &Path, clearance: f64, slack: f64) -> Option<Meeting> {
         match self {
             Self::Plane(p) => p.meet(path, clearance, slack),

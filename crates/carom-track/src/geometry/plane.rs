@@ -1,6 +1,6 @@
 //! A plane wall.
 
-use super::contact::first_contact;
+use super::contact::{first_contact, misses};
 use super::{Meeting, Path};
 use crate::vector::{Vec3, add, dot, scale, sub};
 
@@ -20,11 +20,11 @@ impl Plane {
     }
 
     /// Where a path first comes within `clearance`.
-    #[inline]
+    #[inline(always)]
     pub fn meet(&self, path: &Path, clearance: f64, slack: f64) -> Option<Meeting> {
         let gap = self.distance(path.start) - clearance;
         let along = path.along(self.normal);
-        if gap > slack && gap + along.lower_bound() > 0.0 {
+        if misses(gap, along.range_ahead().0, slack) {
             return None;
         }
         let theta = first_contact(gap, &along, slack, |_| true)?;

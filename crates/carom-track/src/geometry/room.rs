@@ -1,7 +1,7 @@
 //! The inside of a box along the axes.
 
-use super::contact::first_contact;
-use super::{Bernstein, Meeting, Path};
+use super::contact::{first_contact, misses};
+use super::{Meeting, Path};
 use crate::vector::Vec3;
 
 /// Six walls that look inwards.
@@ -30,22 +30,34 @@ impl Room {
         [face(0, a, 1.0), face(0, b, -1.0), face(1, a, 1.0), face(1, b, -1.0), face(2, a, 1.0), face(2, b, -1.0)]
     }
 
+    /// How far a point is from contact with the lower and the upper face across an axis, m.
+    #[inline(always)]
+    fn gaps(&self, x: Vec3, clearance: f64, axis: usize) -> [f64; 2] {
+        [x[axis] - self.min[axis] - clearance, self.max[axis] - x[axis] - clearance]
+    }
+
     /// Where a path first comes within `clearance` of a face: the earliest, the first face where two coincide.
+    #[inline(always)]
     pub fn meet(&self, path: &Path, clearance: f64, slack: f64) -> Option<Meeting> {
-        let mut first: Option<(f64, usize, f64)> = None;
+        // which faces may be met, lower and upper ones in turn: mostly one, or none
+        let mut faces = 0u32;
         for c in 0..3 {
-            let p = [path.points[0][c], path.points[1][c], path.points[2][c], path.points[3][c]];
-            for (sign, gap) in [(1.0, path.start[c] - self.min[c]), (-1.0, self.max[c] - path.start[c])] {
-                let gap = gap - clearance;
-                let along = Bernstein([0.0, sign * p[0], sign * p[1], sign * p[2], sign * p[3]]);
-                if gap > slack && gap + along.lower_bound() > 0.0 {
-                    continue;
-                }
-                if let Some(theta) = first_contact(gap, &along, slack, |_| true)
-                    && first.is_none_or(|f| theta < f.0)
-                {
-                    first = Some((theta, c, sign));
-                }
+            let [below, above] = self.gaps(path.start, clearance, c);
+            let (lowest, highest) = path.component(c).range_ahead();
+            faces |= u32::from(!misses(below, lowest, slack)) << (2 * c);
+            faces |= u32::from(!misses(above, -highest, slack)) << (2 * c + 1);
+        }
+        let mut first: Option<(f64, usize, f64)> = None;
+        while faces != 0 {
+            let face = faces.trailing_zeros() as usize;
+            faces &= faces - 1;
+            let (c, upper) = (face / 2, face % 2);
+            let sign = if upper == 0 { 1.0 } else { -1.0 };
+            let gap = self.gaps(path.start, clearance, c)[upper];
+            if let Some(theta) = first_contact(gap, &path.component(c).scaled(sign, 0.0), slack, |_| true)
+                && first.is_none_or(|f| theta < f.0)
+            {
+                first = Some((theta, c, sign));
             }
         }
         let (theta, axis, sign) = first?;

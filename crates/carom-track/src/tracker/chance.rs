@@ -62,23 +62,23 @@ impl<D: Domain> Tracker<'_, D> {
     pub(super) fn lean<const W: usize>(&self, crew: &mut Crew<W>, l: usize) {
         let chance = &crew.lanes[l].chance;
         crew.bodies.eddy[l] = Some(chance.eddy.middle(&chance.place, crew.h[l]));
-        self.refresh(crew, l);
+        crew.stale[l] = true;
     }
 
-    /// Brings chance up to a lane's time and place, `step` after it last was, and draws what is due.
+    /// Brings chance up to a lane's time and place, `step` after it last was, draws what is due, and says when to stop next.
     pub(super) fn renew<const W: usize>(&self, crew: &mut Crew<W>, l: usize, step: f64) {
         let mut changed = false;
         match &self.dynamics.random_walk {
             Some(walk) => changed = self.renew_eddy(walk, crew, l, step),
             None => crew.lanes[l].chance.look = f64::INFINITY,
         }
-        if crew.lanes[l].chance.kick_end <= crew.lanes[l].time {
+        if crew.lanes[l].chance.kick_end <= crew.time[l] {
             self.renew_kick(crew, l);
             changed = true;
         }
-        if changed {
-            self.refresh(crew, l);
-        }
+        crew.stale[l] |= changed;
+        let (time, next) = (crew.time[l], crew.lanes[l].chance.next());
+        crew.stop[l] = if next > time { self.settings.until.min(next) } else { self.settings.until };
     }
 
     /// Ages the eddy; whether another one was met.
@@ -88,7 +88,7 @@ impl<D: Domain> Tracker<'_, D> {
         let tau = self.dynamics.relaxation_time(&crew.bodies.sphere[l]);
         let here = || walk.surroundings(|x| self.domain.fluid(x), x, nu, tau);
         let lane = &mut crew.lanes[l];
-        let (time, number, chance) = (lane.time, lane.particle.number, &mut lane.chance);
+        let (time, number, chance) = (crew.time[l], lane.particle.number, &mut lane.chance);
         // a plain walk's eddy lives as long as where it was met, once there is turbulence
         let place = if walk.drift || chance.place == Surroundings::CALM { here() } else { chance.place };
         chance.eddy = chance.eddy.after(&chance.place, &place, step);
@@ -117,7 +117,7 @@ impl<D: Domain> Tracker<'_, D> {
     }
 
     fn renew_kick<const W: usize>(&self, crew: &mut Crew<W>, l: usize) {
-        let (time, number) = (crew.lanes[l].time, crew.lanes[l].particle.number);
+        let (time, number) = (crew.time[l], crew.lanes[l].particle.number);
         let chance = &mut crew.lanes[l].chance;
         if !self.dynamics.brownian {
             chance.kick_end = f64::INFINITY;

@@ -31,25 +31,26 @@ struct After {
 }
 
 impl<D: Domain> Tracker<'_, D> {
-    /// Ends a step at a wall.
+    /// Ends a step at a wall, where the sphere arrives with velocity `v`.
     #[inline(always)]
-    pub(super) fn meet<const W: usize>(&self, crew: &mut Crew<W>, l: usize, hit: &Hit, sink: &mut dyn Sink) {
+    pub(super) fn meet<const W: usize>(&self, crew: &mut Crew<W>, l: usize, hit: &Hit, v: Vec3, sink: &mut dyn Sink) {
         let theta = hit.meeting.theta;
         let h = crew.h[l];
         if crew.lanes[l].trace {
             trace(crew, l, theta, sink);
         }
-        let (_, v, spin) = motion_of(&crew.motion, l);
-        let v = add(v, evaluate(&points(&crew.step.speed, l), theta));
-        let spin = if self.dynamics.spins() { add(spin, evaluate(&points(&crew.step.twist, l), theta)) } else { spin };
+        let mut spin = motion_of(&crew.motion, l).2;
+        if self.dynamics.spins() {
+            spin = add(spin, evaluate(&points(&crew.step.twist, l), theta));
+        }
+        crew.time[l] += theta * h;
+        crew.next[l] = if theta > 0.1 { h } else { h * (4.0 * theta).max(1e-3) };
         let lane = &mut crew.lanes[l];
-        lane.time += theta * h;
-        lane.step = if theta > 0.1 { h } else { h * (4.0 * theta).max(1e-3) };
         lane.fitted = false;
-        lane.standing = if theta * h > NO_TIME * lane.time { 0 } else { lane.standing + 1 };
+        lane.standing = if theta * h > NO_TIME * crew.time[l] { 0 } else { lane.standing + 1 };
         lane.impacts += 1;
         if lane.trace {
-            sink.point(lane.particle.number, lane.time, hit.meeting.position, v, spin);
+            sink.point(lane.particle.number, crew.time[l], hit.meeting.position, v, spin);
         }
         let mut after = self.outcome(crew, l, hit, v, spin);
         put(crew, l, hit.meeting.position, after.velocity, after.spin);
@@ -57,7 +58,6 @@ impl<D: Domain> Tracker<'_, D> {
             if self.has_chance() {
                 self.renew(crew, l, theta * h);
             }
-            self.refresh(crew, l);
             if after.bounces && (crew.lanes[l].standing > WEDGED || self.settles(crew, l, hit, &after)) {
                 after = After { event: Event::Settle, velocity: hit.wall_velocity, spin: [0.0; 3], ..after };
                 put(crew, l, hit.meeting.position, after.velocity, after.spin);
@@ -68,7 +68,7 @@ impl<D: Domain> Tracker<'_, D> {
         {
             after.event = Event::Remove(mode);
         }
-        sink.impact(&record(&crew.lanes[l], hit, v, spin, &after));
+        sink.impact(&record(&crew.lanes[l], crew.time[l], hit, v, spin, &after));
         if let Some(fate) = after.event.ends() {
             finish(crew, l, fate, Some(hit.wall), sink);
         }
@@ -137,14 +137,13 @@ impl<D: Domain> Tracker<'_, D> {
         let n = hit.meeting.normal;
         let up = dot(sub(after.velocity, hit.wall_velocity), n);
         let limit = 2.0 * self.settings.settle_height.of(crew.bodies.radius[l]);
-        let a = &crew.rates.a;
-        // drag on the way up only adds to what presses: a first look at the rates there are before the exact one without it
-        let at_most = -(n[0] * a[0][l] + n[1] * a[1][l] + n[2] * a[2][l]);
-        if up > 0.0 && up * up >= limit * at_most.max(0.0) {
+        let along = sub(after.velocity, scale(n, up));
+        let (x, body) = (hit.meeting.position, crew.bodies.one(l));
+        // a bound first, which costs no power
+        if up > 0.0 && up * up >= limit * self.dynamics.press_at_most(self.domain, &body, x, along, n).max(0.0) {
             return false;
         }
-        let along = sub(after.velocity, scale(n, up));
-        let a = self.rates_at(&crew.bodies, l, hit.meeting.position, along, after.spin).a;
+        let a = self.rates_at(&body, x, along, after.spin).a;
         let press = -(n[0] * a[0][0] + n[1] * a[1][0] + n[2] * a[2][0]);
         if up <= 0.0 { press >= 0.0 } else { up * up < limit * press }
     }
@@ -176,11 +175,12 @@ fn put<const W: usize>(crew: &mut Crew<W>, l: usize, x: Vec3, v: Vec3, spin: Vec
         crew.motion.v[c][l] = v[c];
         crew.motion.spin[c][l] = spin[c];
     }
+    crew.stale[l] = true;
 }
 
 /// Speeds and spin before and after, relative to the wall. Spin is positive when it rolls forward along the tangential
 /// velocity (the outgoing one where there is none coming in).
-fn record(lane: &Lane, hit: &Hit, v: Vec3, spin: Vec3, after: &After) -> ImpactRecord {
+fn record(lane: &Lane, time: f64, hit: &Hit, v: Vec3, spin: Vec3, after: &After) -> ImpactRecord {
     let n = hit.meeting.normal;
     let split = |v: Vec3| {
         let rel = sub(v, hit.wall_velocity);
@@ -194,7 +194,7 @@ fn record(lane: &Lane, hit: &Hit, v: Vec3, spin: Vec3, after: &After) -> ImpactR
     let roll = |spin: Vec3| rolling.map_or(norm(spin), |axis| dot(spin, axis));
     ImpactRecord {
         particle: lane.particle.number,
-        time: lane.time,
+        time,
         position: hit.meeting.position,
         normal: n,
         wall: hit.wall,

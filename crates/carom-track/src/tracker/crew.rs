@@ -1,0 +1,111 @@
+//! The particles at work, side by side.
+
+#![allow(clippy::needless_range_loop, reason = "one index runs through several arrays of lanes or components")]
+
+use super::{Lane, Settings};
+use crate::dynamics::Bodies;
+use crate::geometry::Ahead;
+use crate::integrate::{Lanes, Lanes3, Motion, Rates, Step};
+use crate::lanes::{Mask, choose, mask};
+use crate::vector::Vec3;
+
+/// The lanes at work.
+#[repr(align(64))]
+pub(super) struct Crew<const W: usize> {
+    pub lanes: [Lane; W],
+    /// Which lanes have a particle.
+    pub busy: [bool; W],
+    /// Which lanes may go on by themselves where a step meets nothing.
+    pub quiet: Mask<W>,
+    pub time: Lanes<W>,
+    /// Lengths of the next trial steps, s.
+    pub next: Lanes<W>,
+    /// Where the next step must stop: at the end of the run or where something changes.
+    pub stop: Lanes<W>,
+    /// Trial steps so far.
+    pub steps: [u64; W],
+    pub motion: Motion<W>,
+    pub rates: Rates<W>,
+    /// Which lanes' rates are not those of their motion.
+    pub stale: [bool; W],
+    pub bodies: Bodies<W>,
+    pub h: Lanes<W>,
+    pub step: Step<W>,
+}
+
+impl<const W: usize> Crew<W> {
+    /// Nobody at work.
+    pub const IDLE: Self = Self {
+        lanes: [Lane::IDLE; W],
+        busy: [false; W],
+        quiet: [0; W],
+        time: [0.0; W],
+        next: [0.0; W],
+        stop: [0.0; W],
+        steps: [0; W],
+        motion: Motion::ZERO,
+        rates: Rates::ZERO,
+        stale: [false; W],
+        bodies: Bodies::NONE,
+        h: [0.0; W],
+        step: Step::ZERO,
+    };
+
+    /// Trial steps that overshoot no stop.
+    #[inline(always)]
+    pub fn set_steps(&mut self) {
+        for l in 0..W {
+            let rest = self.stop[l] - self.time[l];
+            let h = if self.next[l] < rest { self.next[l] } else { rest };
+            self.h[l] = if self.busy[l] { h } else { 0.0 };
+            self.steps[l] += 1;
+        }
+    }
+
+    /// Takes the steps of the lanes that nothing happens to, and says which these are.
+    #[inline(always)]
+    pub fn go_on(&mut self, ahead: &Ahead<W>, factor: &Lanes<W>, settings: &Settings, spins: bool) -> Mask<W> {
+        let mut goes = self.quiet;
+        for l in 0..W {
+            goes[l] &= mask(ahead.count[l] == 0);
+        }
+        for l in 0..W {
+            goes[l] &= mask(self.step.error_squared[l] <= 1.0);
+        }
+        for l in 0..W {
+            goes[l] &= mask(self.h[l] < self.stop[l] - self.time[l]);
+        }
+        for l in 0..W {
+            goes[l] &= mask(self.steps[l] <= settings.max_steps);
+        }
+        let (mut time, mut next) = ([0.0; W], [0.0; W]);
+        for l in 0..W {
+            time[l] = self.time[l] + self.h[l];
+            next[l] = self.h[l] * factor[l];
+        }
+        choose(&mut self.time, &time, &goes);
+        choose(&mut self.next, &next, &goes);
+        for c in 0..3 {
+            choose(&mut self.motion.x[c], &self.step.end.x[c], &goes);
+            choose(&mut self.motion.v[c], &self.step.end.v[c], &goes);
+            choose(&mut self.rates.a[c], &self.step.rates.a[c], &goes);
+            if spins {
+                choose(&mut self.motion.spin[c], &self.step.end.spin[c], &goes);
+                choose(&mut self.rates.alpha[c], &self.step.rates.alpha[c], &goes);
+            }
+        }
+        goes
+    }
+}
+
+/// One lane's vector.
+#[inline(always)]
+pub(super) fn column<const W: usize>(v: &Lanes3<W>, l: usize) -> Vec3 {
+    [v[0][l], v[1][l], v[2][l]]
+}
+
+/// Position, velocity and spin of one lane.
+#[inline(always)]
+pub(super) fn motion_of<const W: usize>(m: &Motion<W>, l: usize) -> (Vec3, Vec3, Vec3) {
+    (column(&m.x, l), column(&m.v, l), column(&m.spin, l))
+}
