@@ -66,40 +66,42 @@ Foam::caromLaw::caromLaw()
 {}
 
 
-Foam::caromLaw::caromLaw(const dictionary& entry, const fileName& materials, const fileName& caseDir)
+Foam::caromLaw::caromLaw(const entry& patch, const fileName& materials, const fileName& caseDir)
 :
     law_(),
     draws_(0)
 {
-    if (entry.found("law") == entry.found("file"))
+    const dictionary& dict = patch.dict();
+
+    if (dict.found("law") == dict.found("file"))
     {
-        FatalIOErrorInFunction(entry)
-            << "The entry of patch '" << entry.dictName() << "' needs either 'law' (a wall law as text, #{ ... #}) or"
+        FatalIOErrorInFunction(dict)
+            << "The entry of patch '" << patch.keyword() << "' needs either 'law' (a wall law as text, #{ ... #}) or"
             << " 'file' (a file with wall laws) and 'name'" << nl << exit(FatalIOError);
     }
 
-    const string name(entry.getOrDefault<word>("name", word::null));
+    const string name(dict.getOrDefault<word>("name", word::null));
     const string materialsPath(materials.empty() ? string() : path(materials, caseDir));
 
     const quietFloat quiet;
     carom_law* law = nullptr;
     carom_status status;
-    if (entry.found("file"))
+    if (dict.found("file"))
     {
-        const string file(path(entry.get<fileName>("file"), caseDir));
+        const string file(path(dict.get<fileName>("file"), caseDir));
         status = carom_law_from_file(file.c_str(), orNull(name), orNull(materialsPath), &law);
     }
     else
     {
-        const string text(entry.get<string>("law"));
-        const string materialsText(materials.empty() ? string() : contents(entry, materialsPath));
+        const string text(dict.get<string>("law"));
+        const string materialsText(materials.empty() ? string() : contents(dict, materialsPath));
         status = carom_law_from_text(text.c_str(), orNull(name), orNull(materialsText), &law);
     }
 
     if (status != CAROM_STATUS_OK)
     {
-        FatalIOErrorInFunction(entry)
-            << "The wall law of patch entry '" << entry.dictName() << "' cannot be used:" << nl
+        FatalIOErrorInFunction(dict)
+            << "The wall law of patch entry '" << patch.keyword() << "' cannot be used:" << nl
             << carom_last_error() << nl << exit(FatalIOError);
     }
 

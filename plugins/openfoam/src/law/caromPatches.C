@@ -32,21 +32,22 @@ Foam::wordHashSet keywords(const Foam::caromPatches::kind kind)
 
 Foam::caromPatches::action Foam::caromPatches::read
 (
-    const dictionary& entry,
+    const entry& patch,
     const fileName& materials,
     const fileName& caseDir
 )
 {
+    const dictionary& dict = patch.dict();
     action result;
-    result.what = kindNames.get("type", entry);
+    result.what = kindNames.get("type", dict);
 
     const wordHashSet allowed(keywords(result.what));
-    for (const word& key : entry.toc())
+    for (const word& key : dict.toc())
     {
         if (!allowed.found(key))
         {
-            FatalIOErrorInFunction(entry)
-                << "Unknown keyword '" << key << "' in the entry of patch '" << entry.dictName() << "': type "
+            FatalIOErrorInFunction(dict)
+                << "Unknown keyword '" << key << "' in the entry of patch '" << patch.keyword() << "': type "
                 << kindNames[result.what] << " takes " << flatOutput(allowed.sortedToc()) << nl
                 << exit(FatalIOError);
         }
@@ -54,12 +55,12 @@ Foam::caromPatches::action Foam::caromPatches::read
 
     if (result.what == kind::law)
     {
-        result.law = caromLaw(entry, materials, caseDir);
+        result.law = caromLaw(patch, materials, caseDir);
     }
     else if (result.what == kind::rebound)
     {
-        result.e = entry.getCheckOrDefault<scalar>("e", 1, [](const scalar x) { return x >= 0 && x <= 1; });
-        result.mu = entry.getCheckOrDefault<scalar>("mu", 0, [](const scalar x) { return x >= 0 && x <= 1; });
+        result.e = dict.getCheckOrDefault<scalar>("e", 1, [](const scalar x) { return x >= 0 && x <= 1; });
+        result.mu = dict.getCheckOrDefault<scalar>("mu", 0, [](const scalar x) { return x >= 0 && x <= 1; });
     }
 
     return result;
@@ -135,7 +136,7 @@ Foam::caromPatches::caromPatches(const dictionary& coeffs, const polyMesh& mesh)
             {
                 i = read.size();
                 read.append(found);
-                actions_.append(caromPatches::read(found->dict(), materials, caseDir));
+                actions_.append(caromPatches::read(*found, materials, caseDir));
             }
             entryOfPatch_[patchi] = i + 1;
 
