@@ -17,13 +17,13 @@ Foam::string path(Foam::fileName file, const Foam::fileName& caseDir)
     return file.isAbsolute() ? file : caseDir/file;
 }
 
-Foam::string contents(const Foam::dictionary& dict, const Foam::string& file)
+Foam::string contents(const Foam::dictionary& entry, const Foam::string& file)
 {
     std::ifstream in(file.c_str());
     std::ostringstream text;
     if (!in || !(text << in.rdbuf()))
     {
-        FatalIOErrorInFunction(dict)
+        FatalIOErrorInFunction(entry)
             << "Cannot read materials " << file << Foam::nl << Foam::exit(Foam::FatalIOError);
     }
     return text.str();
@@ -72,6 +72,7 @@ Foam::caromLaw::caromLaw(const entry& patch, const fileName& materials, const fi
     draws_(0)
 {
     const dictionary& dict = patch.dict();
+
     if (dict.found("law") == dict.found("file"))
     {
         FatalIOErrorInFunction(dict)

@@ -57,12 +57,3 @@ void Foam::caromFields::addImpact
         angle += share*(radToDeg(std::atan2(normal, tangential)) - angle);
     }
 }
-
-
-void Foam::caromFields::clear()
-{
-    for (volScalarField* field : {&massCaptured_, &impacts_, &speed_, &angle_})
-    {
-        field->boundaryFieldRef() = 0.0;
-    }
-}
