@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs every cloud that the plug-in is compiled for in one of OpenFOAM's own tutorials, for a few steps, with carom's laws on
-# the walls and parcels thrown at them; every impact must be the core's. The colliding cloud is run by run.sh.
+# Runs every cloud that the plug-in is compiled for in one of OpenFOAM's own tutorials, for a few steps, with a
+# law that scatters on the walls and parcels thrown at them; every impact must be the core's. The colliding cloud is run by run.sh.
 #
 #   plugins/openfoam/build.sh && plugins/openfoam/tests/clouds.sh
 set -euo pipefail
@@ -29,6 +29,7 @@ surface = "stainless-steel"
 normal = "ea"
 hertz_damping = 0.01
 friction = 0.2
+roughness_angle = "4 deg"
 END
     set_entry $properties subModels/patchInteractionModel carom
     set_entry $properties subModels/caromCoeffs "{ patches { \"$patches\" { type law; file \"law.toml\"; }
@@ -42,6 +43,8 @@ END
     for patch in $(awk -F, 'NR > 1 { print $2 }' "$csv" | sort -u); do
         laws+=("$patch=law.toml")
     done
+    awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i } NR > 1 && $at["draw0"] != 0.5 { n++ } END { exit !n }' "$csv" ||
+        { echo "$name: no draws for a wall that scatters" >&2; exit 1; }
     (( ${#laws[@]} )) || { echo "$name: no impact" >&2; exit 1; }
     echo "$name ($solver): $("$check" "$csv" "${laws[@]}" | tr '\n' ' ')"
 }

@@ -108,7 +108,7 @@ echo "a stopped and restarted run ends as the whole one"
 message() {
     awk '/^--> FOAM (Warning|FATAL)/ { on = 1 } /^Create mesh|^FOAM (exiting|aborting)/ { on = 0 }
          on && !/^ +(From function|in file) / { print }' "$1" |
-        sed -E -e "s|$work/stop|CASE|g" -e 's/[[:space:]]+$//' | cat -s
+        sed -E -e "s|$work/stop|CASE|g" -e 's/(unknown key .*) known are .*/\1/' -e 's/[[:space:]]+$//' | cat -s
 }
 
 # stop NAME COMMAND: the run with the case changed so must end before its first step, with the message in stops/NAME.txt
