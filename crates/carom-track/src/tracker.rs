@@ -10,6 +10,7 @@ mod crew;
 mod lane;
 mod meeting;
 mod removal;
+mod settings;
 mod wall_jet;
 mod walls;
 
@@ -23,6 +24,7 @@ use crate::vector::Vec3;
 use crew::{Crew, motion_of};
 use lane::Lane;
 pub use removal::Removal;
+pub use settings::{Settings, SettleHeight};
 
 /// A particle as it is injected.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,55 +68,6 @@ impl Particle {
     /// Mass of all it stands for, kg.
     pub fn mass(&self) -> f64 {
         self.weight * self.density * std::f64::consts::PI / 6.0 * self.diameter.powi(3)
-    }
-}
-
-/// A height of bounce that counts as none.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum SettleHeight {
-    /// A fraction of the sphere's radius.
-    Radii(f64),
-    /// A length, m.
-    Length(f64),
-}
-
-impl SettleHeight {
-    /// A thousandth of the radius: far below what bounces are measured to.
-    pub const DEFAULT: Self = Self::Radii(1e-3);
-
-    fn of(self, radius: f64) -> f64 {
-        match self {
-            Self::Radii(share) => share * radius,
-            Self::Length(height) => height,
-        }
-    }
-}
-
-/// How a run is tracked.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settings {
-    /// Tolerated relative error of the time and speed of a first impact.
-    pub tolerance: f64,
-    /// When the run ends, s; infinite where only the walls end it.
-    pub until: f64,
-    /// Height of bounce below which a sphere has settled.
-    pub settle_height: SettleHeight,
-    /// Steps after which a particle is left where it is.
-    pub max_steps: u64,
-    /// Seed of every random draw.
-    pub seed: u64,
-}
-
-/// Local error of a step over the tolerance of a first impact. Errors of steps add up, and a shallow approach turns an
-/// error across the wall into a larger one of the time: docs/benchmarks.md says by how much.
-const PER_STEP: f64 = 1.0 / 30.0;
-/// Largest local error: beyond, the estimate says little of the error.
-const COARSEST: f64 = 1e-5;
-
-impl Settings {
-    /// Tolerated error of a step.
-    fn per_step(&self) -> f64 {
-        (PER_STEP * self.tolerance).min(COARSEST)
     }
 }
 
