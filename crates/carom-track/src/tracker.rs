@@ -162,9 +162,8 @@ impl<D: Domain> Tracker<'_, D> {
     #[inline(always)]
     fn run_lanes<const W: usize>(&self, particles: &mut dyn Iterator<Item = Particle>, sink: &mut dyn Sink) {
         let mut crew = Crew::<W>::IDLE;
-        let spins = self.dynamics.spins();
-        let control =
-            Control { tolerance: self.settings.per_step(), spins, place: self.dynamics.need_place(self.domain) };
+        let place = self.dynamics.need_place(self.domain);
+        let control = Control { tolerance: self.settings.per_step(place), spins: self.dynamics.spins(), place };
         let mut hits = [(walls::NONE, [0.0; 3]); W];
         loop {
             let mut working = false;
@@ -194,7 +193,7 @@ impl<D: Domain> Tracker<'_, D> {
             for l in 0..W {
                 factor[l] = growth(crew.step.error_squared[l], control.place);
             }
-            let goes = crew.go_on(&ahead, &factor, &self.settings, spins);
+            let goes = crew.go_on(&ahead, &factor, &self.settings, control.spins);
             let mut rest = [0; W];
             for l in 0..W {
                 rest[l] = mask(crew.busy[l]) & !goes[l];
@@ -243,7 +242,8 @@ impl<D: Domain> Tracker<'_, D> {
             speed = speed.max(crew.motion.v[c][l].abs());
             change = change.max(crew.rates.a[c][l].abs());
         }
-        let share = (self.settings.per_step() * 1e3).sqrt().sqrt();
+        let place = self.dynamics.need_place(self.domain);
+        let share = (self.settings.per_step(place) * 1e3).sqrt().sqrt();
         let time = if speed > 0.0 && change > 0.0 { speed / change } else { 1.0 / crew.bodies.drag_rate[l] };
         if time.is_finite() { share * time } else { 1.0 }
     }

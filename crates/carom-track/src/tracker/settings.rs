@@ -38,13 +38,15 @@ pub struct Settings {
 
 /// Local error of a step over the tolerance of a first impact. Errors of steps add up, and a shallow approach turns an
 /// error across the wall into a larger one of the time: docs/benchmarks.md says by how much.
-const PER_STEP: f64 = 1.0 / 30.0;
+const PER_STEP: f64 = 1.0 / 40.0;
 /// Largest local error: beyond, the estimate says little of the error.
 const COARSEST: f64 = 1e-5;
 
 impl Settings {
-    /// Tolerated error of a step.
-    pub(super) fn per_step(&self) -> f64 {
-        (PER_STEP * self.tolerance).min(COARSEST)
+    /// Tolerated error of a step, in a flow that differs from place to place or in one that does not: there an error of the place
+    /// feeds on itself.
+    pub(super) fn per_step(&self, place: bool) -> f64 {
+        let share = if place { 0.5 * PER_STEP } else { PER_STEP };
+        (share * self.tolerance).min(COARSEST)
     }
 }

@@ -174,42 +174,6 @@ fn drag_matches_an_independent_integration() {
     assert_eq!(log.ends[0].fate, Fate::Trapped);
 }
 
-/// Times of the first impacts, walls that trap.
-fn firsts(domain: &Analytic, tolerance: f64, particles: &[Particle]) -> Vec<f64> {
-    let behaviors = [Behavior::Trap, Behavior::Trap];
-    let log =
-        track(domain, &dynamics(Drag::SchillerNaumann), &behaviors, Settings { tolerance, ..settings() }, particles);
-    particles.iter().map(|p| log.impacts.iter().find(|i| i.particle == p.number).map(|i| i.time).unwrap()).collect()
-}
-
-#[test]
-fn halving_the_tolerance_moves_no_first_impact_by_more_than_the_tolerance() {
-    use crate::flow::{Channel, Profile};
-    let still = || Flow::Still;
-    let sheared = || Flow::Channel(Channel::new(Profile::Laminar, 0.02, 3.0, &Fluid::default()).unwrap());
-    let wind = || Flow::Uniform { velocity: [1.0, 0.2, 0.0] };
-    // how fast they start, against the 4 m/s of `scattered`
-    let cases: [(&str, &dyn Fn() -> Flow, f64); 6] = [
-        ("wind", &wind, 1.0),
-        ("still", &still, 1.0),
-        ("slow", &still, 0.05),
-        ("from rest", &still, 0.0),
-        ("sheared", &sheared, 1.0),
-        ("sheared, from rest", &sheared, 0.0),
-    ];
-    for (name, flow, speed) in cases {
-        let domain = Analytic::new(flow(), channel().walls().to_vec());
-        let particles: Vec<_> =
-            (0..100).map(scattered).map(|p| Particle { velocity: p.velocity.map(|v| speed * v), ..p }).collect();
-        for tolerance in [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8] {
-            let (whole, half) = (firsts(&domain, tolerance, &particles), firsts(&domain, tolerance / 2.0, &particles));
-            for (n, (a, b)) in whole.iter().zip(half).enumerate() {
-                assert!((a / b - 1.0).abs() <= tolerance, "{name}, {n} at {tolerance}: {a} {b}");
-            }
-        }
-    }
-}
-
 fn channel() -> Analytic {
     let flow = Flow::Uniform { velocity: [1.0, 0.2, 0.0] };
     Analytic::new(
@@ -318,4 +282,5 @@ fn a_spinning_sphere_is_lifted_and_slows_down() {
 mod any_walls;
 mod removal;
 mod scatter;
+mod tolerance;
 mod walls;
