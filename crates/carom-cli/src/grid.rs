@@ -156,6 +156,11 @@ impl Curve {
 }
 
 impl Grid<'_> {
+    /// Whether a curve has impacts that are not head-on.
+    pub fn is_oblique(&self, curve: &Curve) -> bool {
+        curve.args.motion.is_oblique() || self.quantity() == Swept::Angle
+    }
+
     /// What runs.
     pub fn quantity(&self) -> Swept {
         self.over.quantity

@@ -285,9 +285,7 @@ impl LawArgs {
             }
         }
         let has_friction = spec.friction.is_some() || self.friction.is_some();
-        // on a wall that scatters every facet is met obliquely
-        let scatters = spec.roughness_angle.as_ref().is_some_and(|a| a.value.0 > 0.0);
-        if !oblique && !scatters && !has_friction {
+        if !oblique && !spec.scatters() && !has_friction {
             spec.friction = Some(Number(0.0).into());
         }
         Ok(Population { args: self, library, spec, source, has_friction })

@@ -1,7 +1,7 @@
 //! Sampled impacts along a range: the probability of sticking, and bands of what rebounds come to.
 
 use crate::failure::Failure;
-use crate::grid::{Curve, Grid, Swept};
+use crate::grid::{Curve, Grid};
 use crate::law::Law;
 use crate::motion::{ImpactArgs, Met, Motion, refused};
 use crate::samples::{Band, Sampling, Share};
@@ -82,8 +82,7 @@ impl Study {
     }
 
     fn add(&mut self, grid: &Grid, curve: &Curve, sampling: &Sampling) -> Result<(), Failure> {
-        let oblique = curve.args.motion.is_oblique() || grid.quantity() == Swept::Angle;
-        let population = curve.args.law.population(oblique)?;
+        let population = curve.args.law.population(grid.is_oblique(curve))?;
         let middle = population.middle()?;
         let varies = curve.args.law.drawn().next().is_some();
         let scatters = middle.wall.scatter().is_some();

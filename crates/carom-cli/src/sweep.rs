@@ -98,15 +98,14 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let mut laws = Vec::with_capacity(grid.curves.len());
     let mut met = Vec::with_capacity(grid.curves.len() * grid.points.len());
     for curve in &grid.curves {
-        let oblique = curve.args.motion.is_oblique() || grid.quantity() == Swept::Angle;
-        let law = curve.args.law.compile(oblique)?;
+        let law = curve.args.law.compile(grid.is_oblique(curve))?;
         for point in &grid.points {
             let motion = curve.at(grid.quantity(), *point).complete()?;
             met.push(motion.meet(&law.wall).map_err(|e| refused(e, &motion))?);
         }
         laws.push(law);
     }
-    let oblique = grid.quantity() == Swept::Angle || grid.curves.iter().any(|c| c.args.motion.is_oblique());
+    let oblique = grid.curves.iter().any(|c| grid.is_oblique(c));
     grid.show(
         &files,
         || whole(&grid, &met),
@@ -184,7 +183,7 @@ fn sampled(args: &Args, grid: &Grid, files: &Files, sampling: &Sampling) -> Resu
         columns.extend(figures.iter().flat_map(|f| study.band_columns(*f)));
         Ok(Table::new(columns)?)
     };
-    let oblique = grid.quantity() == Swept::Angle || grid.curves.iter().any(|c| c.args.motion.is_oblique());
+    let oblique = grid.curves.iter().any(|c| grid.is_oblique(c));
     let told: &[Figure] = if oblique { &[Figure::Restitution, Figure::AngleOut] } else { &[Figure::Restitution] };
     say(&sampling.note(grid.curves.iter().map(|c| &c.args)));
     grid.show(files, || table(&Figure::ALL), || table(told), || sampled_plot(grid, &study, args.quantity))

@@ -85,7 +85,7 @@ impl<'a> Problem<'a> {
     /// Refuses what cannot be found from these data.
     fn check(&self, data: &Data) -> Result<(), LabError> {
         let refuse = |message: String, help: String| Err(LabError::Fit(SpecError::new(message).help(help)));
-        if self.law.roughness_angle.as_ref().is_some_and(|a| a.value.0 > 0.0) {
+        if self.law.scatters() {
             let message = "the law scatters (roughness_angle), and a fit needs one answer to each impact".to_owned();
             return refuse(message, "fit the smooth wall: roughness_angle = 0, or --roughness-angle 0".to_owned());
         }

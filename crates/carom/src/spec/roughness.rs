@@ -19,6 +19,11 @@ pub(super) struct Roughness {
 }
 
 impl LawSpec {
+    /// Whether the wall scatters: impacts then depend on their draws, and even a head-on one meets its facet obliquely.
+    pub fn scatters(&self) -> bool {
+        self.roughness_angle.as_ref().is_some_and(|a| a.value.0 > 0.0)
+    }
+
     /// C_R: given, or from the roughness by its model, or 1. Fuller & Tabor's needs the `pair`; where there is none, nothing adheres.
     pub(super) fn roughness(&self, spacing: f64, pair: Option<&Pair>) -> Result<Roughness, SpecError> {
         let height = checked(&self.roughness, "roughness", |l| l.0, not_negative, "zero or more is wanted, in m")?;
