@@ -14,6 +14,7 @@ mod plane;
 mod room;
 
 pub use bernstein::Bernstein;
+pub(crate) use contact::first_contact;
 pub use cylinder::Cylinder;
 pub use faces::Ahead;
 pub(crate) use faces::Face;
