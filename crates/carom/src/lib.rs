@@ -37,6 +37,7 @@ pub mod spec;
 pub mod tangential;
 pub mod units;
 pub mod validity;
+mod vector;
 pub mod wall;
 
 pub use error::SpecError;

@@ -13,12 +13,11 @@ use crate::validity::Validity;
 mod checks;
 mod figures;
 mod rough;
-pub(crate) mod vector;
 
+use crate::vector::{add_scaled, cross, dot, norm};
 use checks::ContactLimit;
 pub(crate) use checks::column_ok;
 pub use figures::Window;
-use vector::{add_scaled, cross, dot, norm};
 
 /// A normal law, compiled.
 #[derive(Clone, Debug, PartialEq)]
