@@ -270,9 +270,14 @@ impl RoundJet {
         self.layers().exit(piece.index(), start, &change)
     }
 
+    /// Lower and upper edge of a piece.
+    pub(super) fn bounds(&self, piece: Piece) -> [f64; 2] {
+        self.layers().bounds(piece.index())
+    }
+
     /// How soon a straight path at `v` leaves a piece, s.
     pub fn soonest(&self, piece: Piece, x: [f64; 3], v: [f64; 3]) -> f64 {
-        soonest(x[1], v[1], self.layers().bounds(piece.index()))
+        soonest(x[1], v[1], self.bounds(piece))
     }
 
     /// 1 − s of s = y/δ: 1 below the plate, 0 above the turning.

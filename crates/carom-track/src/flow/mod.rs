@@ -152,6 +152,20 @@ impl Flow {
         }
     }
 
+    /// Whether a box, by its lower and upper corner, surely lies within a piece, and within what a step may span there.
+    #[inline]
+    pub(crate) fn holds(&self, piece: Piece, [low, high]: [Vec3; 2]) -> bool {
+        let within = |[a, b]: [f64; 2], c: usize| low[c] > a && high[c] < b;
+        match self {
+            Self::Still | Self::Uniform { .. } | Self::Stagnation(_) => true,
+            Self::Channel(f) => within(f.bounds(piece), 1),
+            Self::RoundJet(f) => within(f.bounds(piece), 1),
+            Self::Table(f) => (0..3).all(|c| within(f.edges(piece, c), c)),
+            // round: left to the look at the path
+            Self::Pipe(_) | Self::SlotJet(_) => false,
+        }
+    }
+
     /// How far a step from `x` may go within a piece, m.
     #[inline(always)]
     pub fn reach(&self, piece: Piece, x: [f64; 3]) -> f64 {

@@ -241,6 +241,12 @@ impl Table {
         first
     }
 
+    /// Edges of a piece across an axis.
+    #[inline]
+    pub(super) fn edges(&self, piece: Piece, axis: usize) -> [f64; 2] {
+        self.axes[axis].bounds(piece.0[axis])
+    }
+
     /// How soon a straight path at `v` leaves a piece, s.
     pub fn soonest(&self, piece: Piece, x: [f64; 3], v: [f64; 3]) -> f64 {
         (0..3).fold(f64::INFINITY, |t, c| t.min(soonest(x[c], v[c], self.axes[c].bounds(piece.0[c]))))
