@@ -83,7 +83,7 @@ impl<D: Domain> Walk<'_, D> {
     pub(super) fn run_lanes<const W: usize>(&self, particles: &mut dyn Iterator<Item = Particle>, sink: &mut dyn Sink) {
         let mut crew = Crew::<W, D::Here>::idle(D::NOWHERE);
         let place = self.dynamics.need_place(self.domain);
-        let control = Control { tolerance: self.settings.per_step(place), spins: self.dynamics.spins(), place };
+        let control = Control { tolerance: self.per_step(), spins: self.dynamics.spins(), place };
         let mut met = [Met::NOTHING; W];
         loop {
             let mut working = false;
@@ -158,6 +158,10 @@ impl<D: Domain> Walk<'_, D> {
         crew.stale[l] = true;
     }
 
+    fn per_step(&self) -> f64 {
+        self.settings.per_step(self.dynamics.need_place(self.domain), !self.domain.is_one_piece())
+    }
+
     /// A first trial step, s: what the tolerance is likely to allow where forces change over the time in which they
     /// change the speed.
     #[inline(always)]
@@ -167,8 +171,7 @@ impl<D: Domain> Walk<'_, D> {
             speed = speed.max(crew.motion.v[c][l].abs());
             change = change.max(crew.rates.a[c][l].abs());
         }
-        let place = self.dynamics.need_place(self.domain);
-        let share = (self.settings.per_step(place) * 1e3).sqrt().sqrt();
+        let share = (self.per_step() * 1e3).sqrt().sqrt();
         let time = if speed > 0.0 && change > 0.0 { speed / change } else { 1.0 / crew.bodies.drag_rate[l] };
         if time.is_finite() { share * time } else { 1.0 }
     }

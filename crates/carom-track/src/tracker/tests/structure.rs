@@ -15,14 +15,19 @@ struct Landing {
     v: Vec3,
 }
 
-/// By the classical Runge–Kutta method with small fixed steps, drag written out again, until y falls to a radius. A step in which
-/// `side` of the place changes is halved until it is `fine` times as short.
-fn by_small_steps(p: &Particle, dt: f64, u: impl Fn(Vec3) -> Vec3, side: impl Fn(Vec3) -> i64) -> Landing {
+/// By the classical Runge–Kutta method with small steps of the given length by place, drag written out again, until y falls to a
+/// radius. A step in which `side` of the place changes is halved until little of it is left.
+fn by_small_steps(
+    p: &Particle,
+    dt: impl Fn(Vec3) -> f64,
+    u: impl Fn(Vec3) -> Vec3,
+    side: impl Fn(Vec3) -> i64,
+) -> Landing {
     let air = Fluid::default();
     let rate = |s: &[Vec3; 2]| {
         let rel = sub(u(s[0]), s[1]);
         let re = air.density * p.diameter * norm(rel) / air.viscosity;
-        let beta = 18.0 * air.viscosity / (p.density * p.diameter * p.diameter) * (1.0 + 0.15 * re.powf(0.687));
+        let beta = 18.0 * air.viscosity / (p.density * p.diameter * p.diameter) * (1.0 + 0.15 * re.powf(0.687)).max(0.44 / 24.0 * re);
         let weight = -G * (1.0 - air.density / p.density);
         [s[1], [beta * rel[0], beta * rel[1] + weight, beta * rel[2]]]
     };
@@ -34,16 +39,16 @@ fn by_small_steps(p: &Particle, dt: f64, u: impl Fn(Vec3) -> Vec3, side: impl Fn
         let k4 = rate(&add(s, &k3, h));
         [0, 1].map(|i| [0, 1, 2].map(|c| s[i][c] + h / 6.0 * (k1[i][c] + 2.0 * k2[i][c] + 2.0 * k3[i][c] + k4[i][c])))
     };
-    let (mut s, mut t, mut h) = ([p.position, p.velocity], 0.0, dt);
+    let (mut s, mut t, mut h) = ([p.position, p.velocity], 0.0, dt(p.position));
     loop {
         let next = step(&s, h);
         let crosses = side(next[0]) != side(s[0]) || next[0][1] < 0.5 * p.diameter;
-        if crosses && h > 1e-7 * dt {
+        if crosses && h > 1e-7 * dt(s[0]) {
             h *= 0.5;
             continue;
         }
         (s, t) = (next, t + h);
-        h = dt;
+        h = dt(s[0]);
         if s[0][1] <= 0.5 * p.diameter {
             return Landing { time: t, x: s[0], v: s[1] };
         }
@@ -78,8 +83,8 @@ fn worst(got: Landing, want: Landing, p: &Particle) -> f64 {
 }
 
 /// How the errors compare with the tolerance: the worst of all cases for each.
-fn compare(name: &str, cases: &[(Flow, Particle, Landing)], allowed: f64) {
-    for tolerance in [1e-3, 1e-4, 1e-5, 5e-6, 2.5e-6, 1.25e-6, 1e-7] {
+fn compare(name: &str, cases: &[(Flow, Particle, Landing)]) {
+    for tolerance in [1e-3, 1e-5, 5e-6, 2.5e-6, 1e-7] {
         let mut most = (0.0, 0);
         for (n, (flow, p, want)) in cases.iter().enumerate() {
             let error = worst(by_tracker(flow, p, tolerance), *want, p) / tolerance;
@@ -88,7 +93,8 @@ fn compare(name: &str, cases: &[(Flow, Particle, Landing)], allowed: f64) {
             }
         }
         println!("{name} at {tolerance:e}: {:.3} of the tolerance (case {}, seed {SEED})", most.0, most.1);
-        assert!(most.0 < allowed, "{name} at {tolerance}: {} in case {}, seed {SEED}: {:?}", most.0, most.1, cases[most.1].1);
+        let case = &cases[most.1].1;
+        assert!(most.0 < 1.0, "{name} at {tolerance}: {} in case {}, seed {SEED}: {case:?}", most.0, most.1);
     }
 }
 
@@ -132,11 +138,13 @@ fn thin_bands_of_a_table_are_felt_at_any_tolerance() {
             }
             let table = Table::from_csv(text.as_bytes()).unwrap();
             let side = |x: Vec3| nodes.iter().filter(|node| x[1] < node.0).count() as i64;
-            let want = by_small_steps(&p, 1e-5, |x| [profile(&nodes, x[1]), 0.0, 0.0], side);
+            let near = |x: Vec3| low - x[1] < 1e-5 && x[1] - low - width < 1e-5;
+            let pace = |x: Vec3| if near(x) { (ramp / 600.0).min(1e-5) } else { 1e-5 };
+            let want = by_small_steps(&p, pace, |x| [profile(&nodes, x[1]), 0.0, 0.0], side);
             (Flow::Table(table), p, want)
         })
         .collect();
-    compare("bands", &cases, 1.0);
+    compare("bands", &cases);
 }
 
 #[test]
@@ -154,11 +162,11 @@ fn the_edges_of_a_slot_jet_are_felt_at_any_tolerance() {
                 ..sphere(n, [-8.0 * width, width * (3.0 + 5.0 * d), 0.0], [1.0 + 3.0 * a, -0.2, 0.0])
             };
             let side = |x: Vec3| i64::from(flow.velocity(x) != [0.0; 3]);
-            let want = by_small_steps(&p, 2e-6, |x| flow.velocity(x), side);
+            let want = by_small_steps(&p, |_| 2e-6, |x| flow.velocity(x), side);
             (Flow::SlotJet(flow), p, want)
         })
         .collect();
-    compare("slot jets", &cases, 1.0);
+    compare("slot jets", &cases);
 }
 
 #[test]
@@ -169,16 +177,18 @@ fn layers_of_profiles_and_round_jets_are_felt_at_any_tolerance() {
             let mut draws = Stream::new(SEED, n, Purpose::Injection, 2);
             let p = falling(&mut draws, n);
             let [a, b] = draws.uniforms();
+            let jet = RoundJet::new(2e-4 + 3e-3 * a, 2.0 + 30.0 * b).unwrap();
             let flow = if n % 2 == 0 {
                 Flow::Channel(Channel::new(Profile::Turbulent, 0.021 + 0.01 * a, 2.0 + 60.0 * b, &air).unwrap())
             } else {
-                Flow::RoundJet(RoundJet::new(2e-4 + 3e-3 * a, 2.0 + 30.0 * b).unwrap())
+                Flow::RoundJet(jet)
             };
-            let want = by_small_steps(&p, 2e-6, |x| flow.velocity(x), |x| i64::from(flow.piece(x).0[0]));
+            let pace = |x: Vec3| if x[1] < 1.1 * jet.thickness() { 1e-4 * jet.thickness() } else { 1e-5 };
+            let want = by_small_steps(&p, pace, |x| flow.velocity(x), |x| i64::from(flow.piece(x).0[0]));
             (flow, p, want)
         })
         .collect();
-    compare("layers", &cases, 1.0);
+    compare("layers", &cases);
 }
 
 /// The band of 1 mm that was seen at some tolerances and not at others: an independent midpoint integration with steps of 0.2 µs lands
