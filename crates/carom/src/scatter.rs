@@ -44,7 +44,7 @@
 use crate::impact::Vec3;
 use crate::math::normal::{normal_density, normal_probability, normal_quantile};
 use crate::math::{angle, exp, sin_cos};
-use crate::wall::vector::{cross, dot, norm};
+use crate::vector::{cross, dot, norm};
 use std::f64::consts::FRAC_PI_2;
 
 /// Greatest Δγ, rad: 30°, far beyond measured walls (2° to 10°), and what the series is tested to.

@@ -2,7 +2,7 @@
 
 /// A set of codes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Validity(u8);
+pub struct Validity(u32);
 
 /// Codes, their bits and their meaning.
 pub const CODES: [(&str, Validity, &str); 8] = [
@@ -89,7 +89,7 @@ impl Validity {
     }
 
     /// The bits, as the C interface hands them out.
-    pub const fn bits(self) -> u8 {
+    pub const fn bits(self) -> u32 {
         self.0
     }
 

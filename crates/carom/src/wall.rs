@@ -13,12 +13,11 @@ use crate::validity::Validity;
 mod checks;
 mod figures;
 mod rough;
-pub(crate) mod vector;
 
+use crate::vector::{add_scaled, cross, dot, norm};
 use checks::ContactLimit;
 pub(crate) use checks::column_ok;
 pub use figures::Window;
-use vector::{add_scaled, cross, dot, norm};
 
 /// A normal law, compiled.
 #[derive(Clone, Debug, PartialEq)]
@@ -178,7 +177,7 @@ impl WallLaw {
     ///     friction = 0.2
     ///     roughness_factor = 0.15
     /// "#)?;
-    /// let wall = law.compile(&Library::builtin())?;
+    /// let wall = law.compile(Library::builtin())?;
     /// let out = wall.impact(&Impact::new(70e-6, [1.0, -1.0, 0.0], [0.0, 1.0, 0.0])).expect("it approaches");
     /// assert_eq!(out.fate, Fate::Rebound);
     /// assert!((out.velocity[1] - 0.9728).abs() < 1e-3);

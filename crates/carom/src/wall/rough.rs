@@ -1,9 +1,9 @@
 //! One impact on a wall that scatters: facet after facet until the sphere leaves the mean wall or stays.
 
-use super::vector::{add_scaled, dot, norm};
 use super::{WallLaw, checks};
 use crate::impact::{Energy, Fate, Impact, ImpactError, Outcome, Vec3};
 use crate::scatter::Scatter;
+use crate::vector::{add_scaled, dot, norm};
 
 impl WallLaw {
     #[cold]
