@@ -28,7 +28,7 @@ pub(super) fn parse(text: &str) -> Result<Material, SpecError> {
         let found = PropertyKind::ALL.into_iter().find(|kind| kind.symbol() == key || kind.key() == key);
         let Some(kind) = found else {
             let symbols = PropertyKind::ALL.map(PropertyKind::symbol);
-            let near = did_you_mean(key, symbols.into_iter()).map_or(String::new(), |s| format!("{s} "));
+            let near = did_you_mean(key, symbols).map_or(String::new(), |s| format!("{s} "));
             return Err(SpecError::new(format!("unknown property '{key}' in '{text}'"))
                 .help(format!("{near}known are {}", symbols.join(", "))));
         };
