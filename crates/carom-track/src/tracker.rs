@@ -13,10 +13,12 @@ mod settings;
 mod walk;
 mod wall_jet;
 
-use crate::domain::AnyDomain;
+use crate::domain::{AnyDomain, Domain};
 use crate::dynamics::Dynamics;
 use crate::record::Sink;
 use crate::vector::Vec3;
+use carom::instructions::{InstructionSet, Work};
+use carom::math::Fma;
 pub use removal::Removal;
 pub use settings::{Settings, SettleHeight};
 use walk::Walk;
@@ -62,7 +64,8 @@ impl Particle {
 
     /// Mass of all it stands for, kg.
     pub fn mass(&self) -> f64 {
-        self.weight * self.density * std::f64::consts::PI / 6.0 * self.diameter.powi(3)
+        // products: the bits of `powi` depend on the platform
+        self.weight * self.density * std::f64::consts::PI / 6.0 * (self.diameter * self.diameter * self.diameter)
     }
 }
 
@@ -108,20 +111,40 @@ impl Tracker<'_> {
     /// Tracks particles to their ends, with the widest instructions the machine has. The sink hears of each particle's
     /// events in order; events of different particles interleave.
     pub fn run(&self, particles: &mut dyn Iterator<Item = Particle>, sink: &mut dyn Sink) {
+        self.run_on(InstructionSet::best(), particles, sink);
+    }
+
+    /// As [`Tracker::run`], with the same bits, on a given set of instructions.
+    pub fn run_on(&self, set: InstructionSet, particles: &mut dyn Iterator<Item = Particle>, sink: &mut dyn Sink) {
         match self.domain {
-            AnyDomain::Analytic(domain) => self.walk(domain).run(particles, sink),
+            AnyDomain::Analytic(domain) => set.run(Flight { walk: self.walk(domain), particles, sink }),
         }
     }
 
     /// The same bits with one lane and no special instructions.
     pub fn run_plain(&self, particles: &mut dyn Iterator<Item = Particle>, sink: &mut dyn Sink) {
-        match self.domain {
-            AnyDomain::Analytic(domain) => self.walk(domain).run_lanes::<1>(particles, sink),
-        }
+        self.run_on(InstructionSet::Portable, particles, sink);
     }
 
     fn walk<'b, D>(&'b self, domain: &'b D) -> Walk<'b, D> {
         Walk { domain, dynamics: self.dynamics, behaviors: self.behaviors, settings: self.settings }
+    }
+}
+
+/// A call of [`Tracker::run`], for each set of instructions. The lanes fill two vectors: one fills the waits of the other's chain of
+/// dependent operations.
+struct Flight<'a, D> {
+    walk: Walk<'a, D>,
+    particles: &'a mut dyn Iterator<Item = Particle>,
+    sink: &'a mut dyn Sink,
+}
+
+impl<D: Domain> Work for Flight<'_, D> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<F: Fma, const LANES: usize>(self, _: F) {
+        self.walk.run_lanes::<LANES>(self.particles, self.sink);
     }
 }
 

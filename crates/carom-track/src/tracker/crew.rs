@@ -42,22 +42,22 @@ impl<const W: usize, H: Copy> Crew<W, H> {
     /// No lane at work.
     pub const fn idle(nowhere: H) -> Self {
         Self {
-        lanes: [Lane::IDLE; W],
-        busy: [false; W],
-        quiet: [0; W],
-        time: [0.0; W],
-        next: [0.0; W],
-        stop: [0.0; W],
-        longest: [f64::INFINITY; W],
-        here: [nowhere; W],
-        steps: [0; W],
-        motion: Motion::ZERO,
-        rates: Rates::ZERO,
-        stale: [false; W],
-        bodies: Bodies::NONE,
-        h: [0.0; W],
-        step: Step::ZERO,
-    }
+            lanes: [Lane::IDLE; W],
+            busy: [false; W],
+            quiet: [0; W],
+            time: [0.0; W],
+            next: [0.0; W],
+            stop: [0.0; W],
+            longest: [f64::INFINITY; W],
+            here: [nowhere; W],
+            steps: [0; W],
+            motion: Motion::ZERO,
+            rates: Rates::ZERO,
+            stale: [false; W],
+            bodies: Bodies::NONE,
+            h: [0.0; W],
+            step: Step::ZERO,
+        }
     }
 
     /// Trial steps that overshoot no stop.

@@ -1,9 +1,9 @@
 //! One particle in flight.
 
-use super::chance::Chance;
-use super::crew::column;
 use super::Particle;
+use super::chance::Chance;
 use super::crew::Crew;
+use super::crew::column;
 use crate::geometry::evaluate;
 use crate::integrate::Lanes3;
 use crate::record::Sink;

@@ -2,10 +2,10 @@
 
 #![allow(clippy::needless_range_loop, reason = "one index runs through several arrays of lanes or components")]
 
-use super::lane::{Lane, trace};
-use super::wall_jet::leave;
 use super::crew::Crew;
+use super::lane::{Lane, trace};
 use super::walk::finish;
+use super::wall_jet::leave;
 use super::{Behavior, Particle, Walk};
 use crate::domain::{Domain, Hit};
 use crate::random::{Purpose, Stream};
@@ -34,7 +34,14 @@ struct After {
 impl<D: Domain> Walk<'_, D> {
     /// Ends a step at a wall, where the sphere arrives with velocity `v`.
     #[inline(always)]
-    pub(super) fn meet<const W: usize>(&self, crew: &mut Crew<W, D::Here>, l: usize, hit: &Hit, v: Vec3, sink: &mut dyn Sink) {
+    pub(super) fn meet<const W: usize>(
+        &self,
+        crew: &mut Crew<W, D::Here>,
+        l: usize,
+        hit: &Hit,
+        v: Vec3,
+        sink: &mut dyn Sink,
+    ) {
         let theta = hit.meeting.theta;
         let h = crew.h[l];
         if crew.lanes[l].trace {

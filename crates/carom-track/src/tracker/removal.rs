@@ -4,8 +4,8 @@
 //! off at once, and its track ends there. It is not put back into flight. At rest at the wall it would be caught again in the next
 //! instant, and how far it rolls, and whether it is lifted out of the boundary layer, no criterion of incipient motion says.
 
-use super::meeting::law_of;
 use super::crew::Crew;
+use super::meeting::law_of;
 use super::{Behavior, Walk};
 use crate::domain::{Domain, Hit};
 use carom::removal::{Fluid, Mode};

@@ -45,40 +45,6 @@ impl<const W: usize, D: Domain> Derivative<W> for Acting<'_, W, D> {
 }
 
 impl<D: Domain> Walk<'_, D> {
-    /// Tracks particles to their ends, with the widest instructions the machine has. The sink hears of each particle's
-    /// events in order; events of different particles interleave.
-    pub(super) fn run(&self, particles: &mut dyn Iterator<Item = Particle>, sink: &mut dyn Sink) {
-        #[cfg(target_arch = "x86_64")]
-        {
-            if std::arch::is_x86_feature_detected!("avx512f") && std::arch::is_x86_feature_detected!("avx512dq") {
-                // SAFETY: the instructions were just found to be there.
-                return unsafe { self.run_avx512(particles, sink) };
-            }
-            if std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma") {
-                // SAFETY: the instructions were just found to be there.
-                return unsafe { self.run_avx2(particles, sink) };
-            }
-        }
-        // where fused multiply-adds are part of every machine, lanes cost nothing to ask for
-        #[cfg(target_arch = "aarch64")]
-        return self.run_lanes::<8>(particles, sink);
-        #[cfg(not(target_arch = "aarch64"))]
-        self.run_lanes::<1>(particles, sink);
-    }
-
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx512bw,avx2,fma,bmi1,bmi2")]
-    fn run_avx512(&self, particles: &mut dyn Iterator<Item = Particle>, sink: &mut dyn Sink) {
-        // two vectors of eight: one fills the waits of the other's chain of dependent operations
-        self.run_lanes::<16>(particles, sink);
-    }
-
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx2,fma,bmi1,bmi2")]
-    fn run_avx2(&self, particles: &mut dyn Iterator<Item = Particle>, sink: &mut dyn Sink) {
-        self.run_lanes::<8>(particles, sink);
-    }
-
     #[inline(always)]
     pub(super) fn run_lanes<const W: usize>(&self, particles: &mut dyn Iterator<Item = Particle>, sink: &mut dyn Sink) {
         let mut crew = Crew::<W, D::Here>::idle(D::NOWHERE);
@@ -183,14 +149,7 @@ impl<D: Domain> Walk<'_, D> {
             return;
         }
         if self.dynamics.is_plain() {
-            self.dynamics.rates(
-                self.domain,
-                &crew.here,
-                &crew.time,
-                &crew.bodies,
-                &crew.motion,
-                &mut crew.rates,
-            );
+            self.dynamics.rates(self.domain, &crew.here, &crew.time, &crew.bodies, &crew.motion, &mut crew.rates);
         } else {
             for l in 0..W {
                 if crew.stale[l] {
@@ -375,4 +334,3 @@ pub(super) fn finish<const W: usize, H>(
         steps: crew.steps[l],
     });
 }
-

@@ -54,7 +54,8 @@ impl Search {
 
     fn first(&self, x: &Points, y: &Points, low: f64, high: f64, depth: u32) -> Option<f64> {
         let (a, b) = (range(x), range(y));
-        let (far, near) = (a[0].abs().max(a[1].abs()), if a[0] <= 0.0 && a[1] >= 0.0 { 0.0 } else { a[0].abs().min(a[1].abs()) });
+        let (far, near) =
+            (a[0].abs().max(a[1].abs()), if a[0] <= 0.0 && a[1] >= 0.0 { 0.0 } else { a[0].abs().min(a[1].abs()) });
         // the box's corner that lies furthest over on the other side
         let worst = if self.inside { self.side(far, b[1]) } else { self.side(near, b[0]) };
         if worst <= THIN {

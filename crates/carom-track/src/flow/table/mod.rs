@@ -20,8 +20,8 @@ mod xml;
 
 pub use error::TableError;
 
-use super::piece::{Exit, Piece, leave, soonest};
 use super::Local;
+use super::piece::{Exit, Piece, leave, soonest};
 use crate::geometry::Path;
 use std::io::Read;
 

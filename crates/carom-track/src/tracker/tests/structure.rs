@@ -27,7 +27,8 @@ fn by_small_steps(
     let rate = |s: &[Vec3; 2]| {
         let rel = sub(u(s[0]), s[1]);
         let re = air.density * p.diameter * norm(rel) / air.viscosity;
-        let beta = 18.0 * air.viscosity / (p.density * p.diameter * p.diameter) * (1.0 + 0.15 * re.powf(0.687)).max(0.44 / 24.0 * re);
+        let beta = 18.0 * air.viscosity / (p.density * p.diameter * p.diameter)
+            * (1.0 + 0.15 * re.powf(0.687)).max(0.44 / 24.0 * re);
         let weight = -G * (1.0 - air.density / p.density);
         [s[1], [beta * rel[0], beta * rel[1] + weight, beta * rel[2]]]
     };
@@ -130,8 +131,14 @@ fn thin_bands_of_a_table_are_felt_at_any_tolerance() {
             // 0.05 to 4 mm wide, somewhere on the way, with ramps a tenth as wide
             let (width, speed) = (5e-5 * (80.0f64).powf(a), 120.0 * b - 60.0);
             let (low, ramp) = (1e-3 + (0.018 - width) * c, 0.1 * width);
-            let nodes =
-                [(0.0, 0.0), (low, 0.0), (low + ramp, speed), (low + width - ramp, speed), (low + width, 0.0), (0.02, 0.0)];
+            let nodes = [
+                (0.0, 0.0),
+                (low, 0.0),
+                (low + ramp, speed),
+                (low + width - ramp, speed),
+                (low + width, 0.0),
+                (0.02, 0.0),
+            ];
             let mut text = String::from("y,u\n");
             for (y, u) in nodes {
                 text += &format!("{y:?},{u:?}\n");

@@ -1,5 +1,7 @@
 //! What walls of each kind do.
 
+#![allow(clippy::needless_range_loop, reason = "one index runs through several arrays")]
+
 use super::*;
 
 #[test]
