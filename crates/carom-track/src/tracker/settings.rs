@@ -49,7 +49,7 @@ impl Settings {
         let share = match (place, pieces) {
             (false, _) => PER_STEP,
             (true, false) => 0.5 * PER_STEP,
-            (true, true) => 0.15 * PER_STEP,
+            (true, true) => 0.08 * PER_STEP,
         };
         (share * self.tolerance).min(COARSEST)
     }

@@ -123,7 +123,7 @@ fn profile(nodes: &[(f64, f64)], y: f64) -> f64 {
 
 #[test]
 fn thin_bands_of_a_table_are_felt_at_any_tolerance() {
-    let cases: Vec<_> = (0..120)
+    let cases: Vec<_> = (0..100)
         .map(|n| {
             let mut draws = Stream::new(SEED, n, Purpose::Injection, 0);
             let p = falling(&mut draws, n);
