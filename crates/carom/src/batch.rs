@@ -10,7 +10,7 @@
 //! ```
 //! use carom::{batch::{Incidence, Rebound}, material::Library, spec::parse_law};
 //! let law = parse_law("sphere = \"copper\"\nsurface = \"aluminium\"\nnormal = \"ea\"\nfriction = 0.2\n")?;
-//! let wall = law.compile(&Library::builtin())?;
+//! let wall = law.compile(Library::builtin())?;
 //! let (mut n, mut t, mut w) = ([0.0; 2], [0.0; 2], [0.0; 2]);
 //! let incidence = Incidence { normal: &[1.0, 1e-3], tangential: &[2.0, 2.0], spin: &[0.0, 0.0], diameter: &[90e-6, 5e-6] };
 //! wall.impact_batch(&incidence, &mut Rebound::new(&mut n, &mut t, &mut w)).expect("columns of equal length, all approaching");

@@ -5,7 +5,7 @@
 //!
 //! ```
 //! use carom::material::Library;
-//! let mut library = Library::builtin();
+//! let mut library = Library::builtin().clone();
 //! library.extend_from_toml(r#"
 //!     [material.my-steel]
 //!     density = "7850 kg/m3"

@@ -218,8 +218,8 @@ pub fn sin_cos_on<F: Fma>(f: F, x: f64) -> (f64, f64) {
     let k = f.fma(x, FRAC_2_PI, SHIFT) - SHIFT;
     let r = f.fma(k, -PI_2_LOW, f.fma(k, -FRAC_PI_2, x));
     let z = r * r;
-    // Taylor series on |r| ≤ π/4, 1/n! with alternating signs
-    let series = |c: [f64; 8]| c.iter().rev().fold(0.0f64, |sum, &a| f.horner(sum, z, a));
+    // not steps of `horner`: beyond the range r is not small. Taylor series on |r| ≤ π/4, 1/n! with alternating signs
+    let series = |c: [f64; 8]| c.iter().rev().fold(0.0f64, |sum, &a| f.fma(sum, z, a));
     const FACTORIALS: [f64; 18] = {
         let mut f = [1.0; 18];
         let mut n = 1;
@@ -230,8 +230,8 @@ pub fn sin_cos_on<F: Fma>(f: F, x: f64) -> (f64, f64) {
         f
     };
     let sign = |n: usize| if n.is_multiple_of(2) { 1.0 } else { -1.0 };
-    let s = f.horner(r * z, series(core::array::from_fn(|n| sign(n + 1) / FACTORIALS[2 * n + 3])), r);
-    let c = f.horner(series(core::array::from_fn(|n| sign(n + 1) / FACTORIALS[2 * n + 2])), z, 1.0);
+    let s = f.fma(r * z, series(core::array::from_fn(|n| sign(n + 1) / FACTORIALS[2 * n + 3])), r);
+    let c = f.fma(series(core::array::from_fn(|n| sign(n + 1) / FACTORIALS[2 * n + 2])), z, 1.0);
     match (k as i64).rem_euclid(4) {
         0 => (s, c),
         1 => (c, -s),

@@ -1,23 +1,36 @@
-use super::library::BUILTIN;
+use super::library::EMBEDDED;
 use super::*;
 
 #[test]
 fn every_embedded_file_reads_and_every_file_is_embedded() {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/materials");
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/data/materials");
     let mut names: Vec<String> = std::fs::read_dir(folder)
         .expect("data/materials")
         .map(|f| f.expect("entry").file_name().to_string_lossy().into_owned())
-        .filter(|n| !n.ends_with("-pairs.toml"))
         .collect();
     names.sort();
-    let mut embedded: Vec<&str> = BUILTIN.iter().map(|b| b.0).collect();
+    let mut embedded: Vec<&str> = EMBEDDED.iter().map(|b| b.0).collect();
     embedded.sort_unstable();
     assert_eq!(names, embedded);
-    for (name, text) in BUILTIN {
+    for (name, text) in EMBEDDED {
         if let Err(e) = Library::default().extend_from_toml(text) {
             panic!("{}", e.located(name, text));
         }
     }
+}
+
+#[test]
+fn an_embedded_file_that_cannot_be_read_is_reported() {
+    let good = "[material.x]\ndensity = 8000\n";
+    let library = Library::embedded(&[("bad.toml", "[material.y]\ndensty = 3\n"), ("good.toml", good)]);
+    assert!(library.get("x").is_ok());
+    let e = library.get("y").expect_err("its file is refused").to_string();
+    assert!(e.contains("bad.toml:2:1: ") && e.contains("densty"), "{e}");
+}
+
+#[test]
+fn the_library_is_read_once() {
+    assert!(std::ptr::eq(Library::builtin(), Library::builtin()));
 }
 
 #[test]
