@@ -110,7 +110,7 @@ fn write(svg: &mut String, element: &Element) -> fmt::Result {
             if *upright {
                 write!(svg, " transform=\"rotate(270, {x}, {y})\"")?;
             }
-            writeln!(svg, ">{}</text>", Escaped(text))
+            writeln!(svg, ">\n{}\n</text>", Escaped(text))
         }
     }
 }
