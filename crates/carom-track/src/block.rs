@@ -161,6 +161,6 @@ mod tests {
         assert_eq!(names[20..28], energies);
         assert_eq!(LAYOUTS[TRAJECTORIES].schema().len(), 11);
         assert_eq!(LAYOUTS[FATES].header(), "particle,injection,fate,wall,time,x,y,z,diameter,weight,mass,impacts\n");
-        assert_eq!(Fate::ALL.map(|f| f as usize), [0, 1, 2, 3, 4, 5]);
+        assert!(Fate::ALL.iter().enumerate().all(|(i, f)| *f as usize == i));
     }
 }
