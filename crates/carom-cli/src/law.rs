@@ -27,7 +27,7 @@ pub struct MaterialsArgs {
 impl MaterialsArgs {
     /// The library with the user's materials added.
     pub fn library(&self) -> Result<Library, Failure> {
-        let mut library = Library::builtin();
+        let mut library = Library::builtin().clone();
         for path in &self.materials {
             let text = output::read(path)?;
             library.extend_from_toml(&text).map_err(|e| Failure::in_file(e, &path.display().to_string(), &text))?;

@@ -57,7 +57,7 @@ fn closed_box(c: &mut Criterion) {
     let wall = Wall { name: "box".into(), shape: room, contact_at: ContactAt::Surface, velocity: [0.0; 3] };
     let domain = Analytic::new(Flow::Still, vec![wall]);
     let law = "normal = \"constant\"\nrestitution = 0.95\ntangential = \"constant\"\ntangential_restitution = 0.95\n";
-    let law = carom::spec::parse_law(law).expect("a law").compile(&carom::material::Library::builtin()).expect("a law");
+    let law = carom::spec::parse_law(law).expect("a law").compile(carom::material::Library::builtin()).expect("a law");
     let behaviors = [Behavior::Law(vec![law])];
     let forces = Forces { drag: Drag::SchillerNaumann, ..Forces::default() };
     let dynamics = Dynamics { fluid: Fluid::default(), forces, random_walk: None, brownian: false };

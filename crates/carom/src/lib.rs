@@ -12,7 +12,7 @@
 //!     friction = 0.2
 //!     roughness_factor = 0.8
 //! "#)?;
-//! let wall = law.compile(&Library::builtin())?;
+//! let wall = law.compile(Library::builtin())?;
 //! let out = wall.impact(&Impact::new(90e-6, [2.0, -0.5, 0.0], [0.0, 1.0, 0.0])).expect("it approaches the wall");
 //! println!("{}: e = {:.3}, leaves at {:?} m/s", out.fate.name(), out.restitution, out.velocity);
 //! # Ok::<(), carom::SpecError>(())
@@ -25,6 +25,7 @@
 pub mod batch;
 pub mod error;
 pub mod impact;
+pub mod instructions;
 pub mod material;
 pub mod math;
 pub mod normal;

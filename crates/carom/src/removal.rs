@@ -32,7 +32,7 @@
 //! ```
 //! use carom::{material::Library, removal::Fluid, spec::parse_law};
 //! let law = parse_law("sphere = \"copper\"\nsurface = \"silicon\"\nnormal = \"ea\"\nfriction = 0.2\nroughness_factor = 0.1\n")?;
-//! let wall = law.compile(&Library::builtin())?;
+//! let wall = law.compile(Library::builtin())?;
 //! let air = Fluid { density: 1.19, viscosity: 1.83e-5 };
 //! let removal = wall.removal(50e-6, &air).expect("in range").expect("it adheres");
 //! let sliding = removal.sliding.expect("the law has friction");

@@ -177,7 +177,7 @@ impl WallLaw {
     ///     friction = 0.2
     ///     roughness_factor = 0.15
     /// "#)?;
-    /// let wall = law.compile(&Library::builtin())?;
+    /// let wall = law.compile(Library::builtin())?;
     /// let out = wall.impact(&Impact::new(70e-6, [1.0, -1.0, 0.0], [0.0, 1.0, 0.0])).expect("it approaches");
     /// assert_eq!(out.fate, Fate::Rebound);
     /// assert!((out.velocity[1] - 0.9728).abs() < 1e-3);

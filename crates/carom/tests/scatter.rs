@@ -257,7 +257,7 @@ fn the_batch_has_the_bits_of_single_impacts() {
 fn angles_that_are_none_are_refused() {
     let refused = |angle: &str| {
         let text = format!("normal = \"constant\"\nrestitution = 0.8\nfriction = 0.2\nroughness_angle = {angle}\n");
-        let law = carom::spec::parse_law(&text).and_then(|s| s.compile(&carom::material::Library::builtin()));
+        let law = carom::spec::parse_law(&text).and_then(|s| s.compile(carom::material::Library::builtin()));
         law.expect_err(angle).located("law", &text)
     };
     assert!(

@@ -41,7 +41,7 @@ fn plane(name: &str, point: Vec3, normal: Vec3) -> Wall {
 }
 
 fn law(text: &str) -> carom::WallLaw {
-    carom::spec::parse_law(text).unwrap().compile(&carom::material::Library::builtin()).unwrap()
+    carom::spec::parse_law(text).unwrap().compile(carom::material::Library::builtin()).unwrap()
 }
 
 fn bounce(restitution: f64) -> Behavior {

@@ -1,6 +1,8 @@
 //! The loops of a batch: one body, compiled for each instruction set and each combination of losses.
 
-use super::{Incidence, InstructionSet, Rebound};
+use super::{Incidence, Rebound};
+use crate::instructions::{InstructionSet, Work};
+use crate::math::Fma;
 use crate::normal::ledger::{self, Adhesion, AdhesiveLoss, Elastic, Ledger, NoAdhesion, Plastic, PlasticLoss};
 use crate::normal::{Size, damping::Damping};
 use crate::tangential::{Coulomb, FrictionLaw, Tangential, constant};
@@ -74,25 +76,25 @@ impl Sizing for Curved {
 }
 
 /// All rows; whether every one of them was an impact.
-pub(super) fn run(machine: &Machine, law: &WallLaw, rows: &Incidence, out: &mut Rebound) -> bool {
+pub(super) fn run(set: InstructionSet, law: &WallLaw, rows: &Incidence, out: &mut Rebound) -> bool {
     match &law.normal {
-        NormalLaw::Ledger(ledger) => run_ledger(machine, law, ledger, rows, out),
-        other => run_sized(machine, law, other, rows, out),
+        NormalLaw::Ledger(ledger) => run_ledger(set, law, ledger, rows, out),
+        other => run_sized(set, law, other, rows, out),
     }
 }
 
-fn run_ledger(machine: &Machine, law: &WallLaw, ledger: &Ledger, rows: &Incidence, out: &mut Rebound) -> bool {
+fn run_ledger(set: InstructionSet, law: &WallLaw, ledger: &Ledger, rows: &Incidence, out: &mut Rebound) -> bool {
     match &ledger.plastic {
-        Plastic::None => run_plastic(machine, law, ledger, &Elastic, rows, out),
-        Plastic::Kadomtsev(p) => run_plastic(machine, law, ledger, p, rows, out),
-        Plastic::ThorntonNing(p) => run_plastic(machine, law, ledger, p, rows, out),
-        Plastic::Bons(p) => run_plastic(machine, law, ledger, p, rows, out),
-        Plastic::Tabor(_) => run_sized(machine, law, &law.normal, rows, out),
+        Plastic::None => run_plastic(set, law, ledger, &Elastic, rows, out),
+        Plastic::Kadomtsev(p) => run_plastic(set, law, ledger, p, rows, out),
+        Plastic::ThorntonNing(p) => run_plastic(set, law, ledger, p, rows, out),
+        Plastic::Bons(p) => run_plastic(set, law, ledger, p, rows, out),
+        Plastic::Tabor(_) => run_sized(set, law, &law.normal, rows, out),
     }
 }
 
 fn run_plastic<P: PlasticLoss>(
-    machine: &Machine,
+    set: InstructionSet,
     law: &WallLaw,
     ledger: &Ledger,
     plastic: &P,
@@ -101,24 +103,24 @@ fn run_plastic<P: PlasticLoss>(
 ) -> bool {
     let damping = ledger.damping;
     match &ledger.adhesion {
-        Adhesion::Jkr(_) => run_sized(machine, law, &law.normal, rows, out),
+        Adhesion::Jkr(_) => run_sized(set, law, &law.normal, rows, out),
         _ if ledger.uses_work() => {
-            run_sized(machine, law, &Of { adhesive: ledger.work_loss(), plastic, damping }, rows, out)
+            run_sized(set, law, &Of { adhesive: ledger.work_loss(), plastic, damping }, rows, out)
         }
-        _ => run_sized(machine, law, &Of { adhesive: NoAdhesion, plastic, damping }, rows, out),
+        _ => run_sized(set, law, &Of { adhesive: NoAdhesion, plastic, damping }, rows, out),
     }
 }
 
-fn run_sized<N: Normal>(machine: &Machine, law: &WallLaw, normal: &N, rows: &Incidence, out: &mut Rebound) -> bool {
+fn run_sized<N: Normal>(set: InstructionSet, law: &WallLaw, normal: &N, rows: &Incidence, out: &mut Rebound) -> bool {
     if law.surface_curvature == 0.0 {
-        run_chunks(machine, law, normal, &Flat, rows, out)
+        run_chunks(set, law, normal, &Flat, rows, out)
     } else {
-        run_chunks(machine, law, normal, &Curved(law.surface_curvature), rows, out)
+        run_chunks(set, law, normal, &Curved(law.surface_curvature), rows, out)
     }
 }
 
 fn run_chunks<N: Normal, S: Sizing>(
-    machine: &Machine,
+    set: InstructionSet,
     law: &WallLaw,
     normal: &N,
     sizing: &S,
@@ -152,7 +154,7 @@ fn run_chunks<N: Normal, S: Sizing>(
             chunk.tangential[len..].fill(0.0);
             chunk.spin[len..].fill(0.0);
         }
-        machine.dispatch(&law.tangential, normal, sizing, &mut chunk);
+        set.run(OneChunk { tangential: &law.tangential, normal, sizing, chunk: &mut chunk });
         all_fine &= chunk.all_fine;
         out.normal[range.clone()].copy_from_slice(&chunk.out.normal[..len]);
         out.tangential[range.clone()].copy_from_slice(&chunk.out.tangential[..len]);
@@ -168,37 +170,21 @@ fn run_chunks<N: Normal, S: Sizing>(
     all_fine
 }
 
-/// The instruction set of a batch, known to be here.
-pub(super) struct Machine(InstructionSet);
-
-impl Machine {
-    pub(super) fn new(set: InstructionSet) -> Self {
-        Self(if InstructionSet::available().any(|here| here == set) { set } else { InstructionSet::Portable })
-    }
-
-    fn dispatch<N: Normal, S: Sizing>(&self, tangential: &Tangential, normal: &N, sizing: &S, chunk: &mut Chunk) {
-        match self.0 {
-            #[cfg(target_arch = "x86_64")]
-            // SAFETY: `new` lets this set through only where the processor has it.
-            InstructionSet::Avx512 => unsafe { avx512(tangential, normal, sizing, chunk) },
-            #[cfg(target_arch = "x86_64")]
-            // SAFETY: likewise.
-            InstructionSet::Avx2 => unsafe { avx2(tangential, normal, sizing, chunk) },
-            _ => body(tangential, normal, sizing, chunk),
-        }
-    }
+/// The loop over a chunk, for each set of instructions.
+struct OneChunk<'a, N, S> {
+    tangential: &'a Tangential,
+    normal: &'a N,
+    sizing: &'a S,
+    chunk: &'a mut Chunk,
 }
 
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
-fn avx512<N: Normal, S: Sizing>(tangential: &Tangential, normal: &N, sizing: &S, chunk: &mut Chunk) {
-    body(tangential, normal, sizing, chunk);
-}
+impl<N: Normal, S: Sizing> Work for OneChunk<'_, N, S> {
+    type Output = ();
 
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2,fma")]
-fn avx2<N: Normal, S: Sizing>(tangential: &Tangential, normal: &N, sizing: &S, chunk: &mut Chunk) {
-    body(tangential, normal, sizing, chunk);
+    #[inline(always)]
+    fn run<F: Fma, const LANES: usize>(self, _: F) {
+        body(self.tangential, self.normal, self.sizing, self.chunk);
+    }
 }
 
 #[inline(always)]

@@ -4,14 +4,15 @@ use super::property::Fields;
 use super::{Material, SpecError};
 use crate::error::did_you_mean;
 use std::collections::BTreeMap;
+use std::sync::LazyLock;
 
-/// The embedded files of `data/materials`; a test keeps this list complete.
-pub(super) const BUILTIN: &[(&str, &str)] = &[
-    ("glasses.toml", include_str!("../../../../data/materials/glasses.toml")),
-    ("kim-dunn-2007.toml", include_str!("../../../../data/materials/kim-dunn-2007.toml")),
-    ("metals.toml", include_str!("../../../../data/materials/metals.toml")),
-    ("polymers.toml", include_str!("../../../../data/materials/polymers.toml")),
-    ("powders.toml", include_str!("../../../../data/materials/powders.toml")),
+/// The embedded files of the crate's `data/materials`; a test keeps this list complete.
+pub(super) const EMBEDDED: &[(&str, &str)] = &[
+    ("glasses.toml", include_str!("../../data/materials/glasses.toml")),
+    ("kim-dunn-2007.toml", include_str!("../../data/materials/kim-dunn-2007.toml")),
+    ("metals.toml", include_str!("../../data/materials/metals.toml")),
+    ("polymers.toml", include_str!("../../data/materials/polymers.toml")),
+    ("powders.toml", include_str!("../../data/materials/powders.toml")),
 ];
 
 /// A set of materials. Names and aliases are matched without regard to case; `_` and a space count as `-`.
@@ -19,6 +20,8 @@ pub(super) const BUILTIN: &[(&str, &str)] = &[
 pub struct Library {
     materials: BTreeMap<String, Material>,
     aliases: BTreeMap<String, String>,
+    /// What an embedded file was refused for: none in a build that passed its tests.
+    unread: Option<String>,
 }
 
 #[derive(serde::Deserialize)]
@@ -33,12 +36,22 @@ fn key(name: &str) -> String {
 }
 
 impl Library {
-    /// The materials that come with carom, each value with its source (see `docs/materials.md`).
-    pub fn builtin() -> Self {
+    /// The materials that come with carom, each value with its source (see `docs/materials.md`), read once per process.
+    ///
+    /// Clone it to add materials to it.
+    pub fn builtin() -> &'static Self {
+        static BUILTIN: LazyLock<Library> = LazyLock::new(|| Library::embedded(EMBEDDED));
+        &BUILTIN
+    }
+
+    /// A library of embedded files. One that cannot be read is not passed over: [`Library::get`] reports it for every
+    /// name that is missing.
+    pub(super) fn embedded(files: &[(&str, &str)]) -> Self {
         let mut library = Self::default();
-        for (_, text) in BUILTIN {
-            // the embedded files are read by a test one by one, so nothing can be refused here
-            let _ = library.extend_from_toml(text);
+        for (name, text) in files {
+            if let Err(e) = library.extend_from_toml(text) {
+                library.unread.get_or_insert_with(|| e.located(name, text));
+            }
         }
         library
     }
@@ -78,6 +91,9 @@ impl Library {
         let wanted = key(name);
         let canonical = self.aliases.get(&wanted).unwrap_or(&wanted);
         self.materials.get(canonical).ok_or_else(|| {
+            if let Some(unread) = &self.unread {
+                return SpecError::new(format!("the materials that come with carom cannot be read: {unread}"));
+            }
             let known = self.materials.keys().chain(self.aliases.keys()).map(String::as_str);
             let near = did_you_mean(&wanted, known).map_or(String::new(), |s| format!("{s} "));
             SpecError::new(format!("unknown material '{name}'")).help(format!(

@@ -98,6 +98,7 @@ impl LawSpec {
                     positive,
                     "a positive pressure is wanted",
                 )?,
+                dynamic_strength_factor: None,
                 interfacial_parameter: checked(
                     &self.interfacial_parameter,
                     "interfacial_parameter",

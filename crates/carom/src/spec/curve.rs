@@ -79,8 +79,7 @@ impl<'de> Deserialize<'de> for CurveSpec {
 }
 
 /// Curves that come with carom: name, file.
-const BUILTIN: &[(&str, &str)] =
-    &[("grant-tabakoff", include_str!("../../../../data/curves/grant-tabakoff-1975.toml"))];
+const BUILTIN: &[(&str, &str)] = &[("grant-tabakoff", include_str!("../../data/curves/grant-tabakoff-1975.toml"))];
 
 #[derive(serde::Deserialize)]
 struct CurveFile {

@@ -6,7 +6,7 @@ const PAIR: &str = "sphere = \"copper\"\nsurface = \"aluminium\"\nfriction = 0.2
 
 /// The complaint about a law text, with its place.
 fn complaint(text: &str) -> String {
-    match parse_law(text).and_then(|law| law.compile(&Library::builtin())) {
+    match parse_law(text).and_then(|law| law.compile(Library::builtin())) {
         Ok(_) => panic!("accepted: {text}"),
         Err(e) => e.located("law.toml", text),
     }
@@ -149,7 +149,7 @@ fn named_laws_and_their_lists_are_the_same() {
     let compile = |rest: &str| {
         let text = format!("{PAIR}{rest}");
         parse_law(&text)
-            .and_then(|l| l.compile(&library))
+            .and_then(|l| l.compile(library))
             .unwrap_or_else(|e| panic!("{}", e.located("law", &text)))
             .normal
     };
@@ -186,7 +186,7 @@ fn laws_are_found_by_name_among_other_tables() {
 fn roughness_above_its_calibration_is_flagged() {
     let library = Library::builtin();
     let flags = |rest: &str| {
-        let law = parse_law(&format!("{PAIR}{rest}")).and_then(|l| l.compile(&library)).expect("a good law");
+        let law = parse_law(&format!("{PAIR}{rest}")).and_then(|l| l.compile(library)).expect("a good law");
         law.validity.codes().collect::<Vec<_>>()
     };
     assert_eq!(flags("normal = \"ea\"\nroughness = \"1 nm\"\n"), ["roughness-extrapolated"]);
@@ -202,9 +202,8 @@ fn fuller_and_tabors_factor_is_that_of_the_pair() {
     let factor = |rest: &str| {
         let text =
             format!("{PAIR}normal = \"ea\"\nroughness_model = \"fuller-tabor\"\nasperity_radius = \"100 nm\"\n{rest}");
-        let law = parse_law(&text)
-            .and_then(|l| l.compile(&library))
-            .unwrap_or_else(|e| panic!("{}", e.located("law", &text)));
+        let law =
+            parse_law(&text).and_then(|l| l.compile(library)).unwrap_or_else(|e| panic!("{}", e.located("law", &text)));
         (law.roughness_factor(), law.pair().expect("a pair").clone())
     };
     assert_eq!(factor("roughness = 0\n").0, 1.0);
@@ -244,7 +243,7 @@ fn every_key_survives_being_written() {
     let written = law.to_toml("wall").expect("text");
     let again = parse_named_law(&written, "wall").expect("it reads");
     assert_eq!(again.to_toml("wall").expect("text"), written);
-    let [law, again] = [law, again].map(|l| l.compile(&library).expect("a law"));
+    let [law, again] = [law, again].map(|l| l.compile(library).expect("a law"));
     assert_eq!((law.normal(), law.tangential()), (again.normal(), again.tangential()));
     assert_eq!(law.density(), 2000.0);
 }
@@ -261,7 +260,7 @@ fn curves_survive_being_written() {
         let kind = if curve == "0.7" { "constant" } else { "by-angle" };
         let law = parse_law(&format!("normal = \"{kind}\"\nrestitution = {curve}\nfriction = 0.1\n")).expect("a law");
         let again = parse_named_law(&law.to_toml("wall").expect("text"), "wall").expect("it reads");
-        let [law, again] = [law, again].map(|l| l.compile(&Library::builtin()).expect("a law"));
+        let [law, again] = [law, again].map(|l| l.compile(Library::builtin()).expect("a law"));
         for degrees in 1..=90 {
             let (s, c) = f64::from(degrees).to_radians().sin_cos();
             let impact = crate::Impact::new(1e-4, [c, -s, 0.0], [0.0, 1.0, 0.0]);

@@ -85,7 +85,7 @@ fn elastic_spheres_in_a_pipe_keep_energy_and_stay_inside() {
 fn a_moving_wall_is_a_resting_one_seen_from_it() {
     let belt = [1.5, 0.0, -0.5];
     let law = "normal = \"constant\"\nrestitution = 0.7\ntangential = \"rolling\"\nfriction = 0.3\n";
-    let law = carom::spec::parse_law(law).unwrap().compile(&carom::material::Library::builtin()).unwrap();
+    let law = carom::spec::parse_law(law).unwrap().compile(carom::material::Library::builtin()).unwrap();
     let behaviors = [Behavior::Law(vec![law])];
     let run = |wall: Vec3, v: Vec3| {
         let wall = Wall { velocity: wall, ..plane("belt", [0.0; 3], [0.0, 1.0, 0.0]) };
