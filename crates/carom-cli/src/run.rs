@@ -102,7 +102,9 @@ fn tell_on_interrupt(args: &Args) {
         Some(out) => {
             let shard = args.shard.map_or(String::new(), |s| format!(" --shard {}/{}", s.index, s.of));
             let (case, out) = (args.case.display(), out.display());
-            format!("interrupted; to go on: carom run {case} --out {out}{shard} --resume, with the other options as they were")
+            format!(
+                "interrupted; to go on: carom run {case} --out {out}{shard} --resume, with the other options as they were"
+            )
         }
         None => "interrupted".to_owned(),
     };

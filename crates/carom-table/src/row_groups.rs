@@ -264,7 +264,9 @@ mod tests {
     fn however_rows_come_and_wherever_the_file_is_taken_up_the_bytes_are_the_same() {
         let folder = tempfile::tempdir().unwrap();
         let mut files = Vec::new();
-        for (name, step, stop) in [("whole", 1000, None), ("bits", 7, None), ("again", 7, Some(420)), ("edge", 50, Some(500))] {
+        for (name, step, stop) in
+            [("whole", 1000, None), ("bits", 7, None), ("again", 7, Some(420)), ("edge", 50, Some(500))]
+        {
             let path = folder.path().join(name).with_extension("parquet");
             let mut file = File::create_new(&path).unwrap();
             let mut groups = RowGroups::new(table(0..0).schema(), 100).unwrap();
@@ -276,8 +278,7 @@ mod tests {
                     // half a group more than is known of
                     file.write_all(&[7; 1234]).unwrap();
                     let mut old = File::open(&path).unwrap();
-                    groups =
-                        RowGroups::take_up(table(0..0).schema(), 100, &mut old, length, Some(pending)).unwrap();
+                    groups = RowGroups::take_up(table(0..0).schema(), 100, &mut old, length, Some(pending)).unwrap();
                     file.set_len(length).unwrap();
                     file.seek(SeekFrom::End(0)).unwrap();
                 }

@@ -168,7 +168,8 @@ fn countable(injections: &[Injected]) -> Result<(), SpecError> {
         all = all.saturating_add(injected.injection.count());
         if all > MOST_PARTICLES {
             let message = format!("{} makes {} particles or more in all", injected.name, MOST_PARTICLES + 1);
-            let help = "at most 2^53 (9007199254740992) can be counted: give fewer, each with a weight (mass and parcels)";
+            let help =
+                "at most 2^53 (9007199254740992) can be counted: give fewer, each with a weight (mass and parcels)";
             return Err(SpecError::new(message).help(help).at(injected.place.clone()));
         }
     }

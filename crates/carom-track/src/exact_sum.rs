@@ -28,7 +28,9 @@ fn add_at(limbs: &mut [u64], place: usize, parts: &[u64]) -> bool {
         if i >= parts.len() && !carry {
             return true;
         }
-        let Some(limb) = limbs.get_mut(place + i) else { return part == 0 && !carry && parts[i..].iter().all(|p| *p == 0) };
+        let Some(limb) = limbs.get_mut(place + i) else {
+            return part == 0 && !carry && parts[i..].iter().all(|p| *p == 0);
+        };
         let (sum, over) = limb.overflowing_add(part);
         let (sum, over_again) = sum.overflowing_add(u64::from(carry));
         (*limb, carry) = (sum, over | over_again);

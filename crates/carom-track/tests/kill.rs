@@ -39,13 +39,7 @@ fn case() -> Case {
 }
 
 fn options(out: PathBuf, resume: bool) -> RunOptions {
-    RunOptions {
-        threads: 2,
-        out: Some(out),
-        resume,
-        checkpoint_every: Duration::ZERO,
-        ..RunOptions::default()
-    }
+    RunOptions { threads: 2, out: Some(out), resume, checkpoint_every: Duration::ZERO, ..RunOptions::default() }
 }
 
 /// The first particle not yet on disk, from the checkpoint of a run under way; 0 where there is none.

@@ -23,7 +23,13 @@ pub(super) struct Groups {
 
 impl Groups {
     /// A new file, or one that is whole up to a length; then `rest` is the file with the rows that waited.
-    pub fn open(layout: &Layout, path: &Path, length: u64, rest: Option<&Path>, disk: &dyn Disk) -> Result<Self, RunError> {
+    pub fn open(
+        layout: &Layout,
+        path: &Path,
+        length: u64,
+        rest: Option<&Path>,
+        disk: &dyn Disk,
+    ) -> Result<Self, RunError> {
         let fresh = RowGroups::new(layout.schema(), GROUP)?;
         let mut stream = Stream::open(path, &fresh.header(), length, disk)?;
         let groups = if length == 0 {
@@ -50,8 +56,8 @@ impl Groups {
 
     /// Records as a table with words.
     fn table(&mut self, layout: &Layout, words: &Words, columns: Columns) -> Result<Table, RunError> {
-        let columns = columns.into_columns().into_iter().zip(layout.columns).map(|(column, (name, unit, what))| {
-            match column {
+        let columns =
+            columns.into_columns().into_iter().zip(layout.columns).map(|(column, (name, unit, what))| match column {
                 Column::Count(v) => carom_table::Column::count(*name, v),
                 Column::Float(v) => carom_table::Column::float(*name, *unit, v),
                 Column::Word(codes) => {
@@ -61,8 +67,7 @@ impl Groups {
                     };
                     carom_table::Column::optional_text(*name, codes.into_iter().map(word))
                 }
-            }
-        });
+            });
         Ok(Table::new(columns.collect::<Vec<_>>())?)
     }
 

@@ -80,7 +80,9 @@ fn is_ours(name: &str) -> bool {
             || rest.strip_prefix(".rest-").is_some_and(|rest| rest.ends_with(".parquet"))
     });
     let name = name.strip_suffix(UNFINISHED).and_then(|n| n.strip_suffix('.')).unwrap_or(name);
-    of_table || [CHECKPOINT, SUMMARY, DEPOSITION, vtp::TRIANGLES].contains(&name) || PICTURES.contains(&name)
+    of_table
+        || [CHECKPOINT, SUMMARY, DEPOSITION, vtp::TRIANGLES].contains(&name)
+        || PICTURES.contains(&name)
         || [vtp::PATHS, vtp::DEPOSIT].contains(&name)
 }
 
@@ -180,9 +182,8 @@ impl<'a> Output<'a> {
         for (t, forms) in forms(&self.state).into_iter().enumerate() {
             let layout = &LAYOUTS[t];
             let length = |name: &str| self.state.files.get(name).copied().unwrap_or(0);
-            let open = |name: &str, header: &[u8]| {
-                Stream::open(&self.folder.join(name), header, length(name), self.disk)
-            };
+            let open =
+                |name: &str, header: &[u8]| Stream::open(&self.folder.join(name), header, length(name), self.disk);
             let table = &mut self.tables[t];
             if forms.text {
                 table.text = Some(open(&layout.file(TableFormat::Csv), layout.header().as_bytes())?);
@@ -322,7 +323,8 @@ impl<'a> Output<'a> {
             let made = vtp::write(&self.folder, &self.state, self.disk)?;
             self.state.files.extend(made);
         }
-        let text = self.state.summary.deposition.to_csv(&self.state.bins, &self.state.walls()).map_err(RunError::Csv)?;
+        let text =
+            self.state.summary.deposition.to_csv(&self.state.bins, &self.state.walls()).map_err(RunError::Csv)?;
         replace(self.disk, &self.folder, DEPOSITION, text.as_bytes())?;
         self.state.files.insert(DEPOSITION.to_owned(), text.len() as u64);
         for (name, length) in &mut self.state.files {

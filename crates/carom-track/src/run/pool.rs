@@ -131,11 +131,16 @@ mod tests {
     fn results_come_in_order_and_an_error_stops() {
         for threads in [1, 4] {
             let mut next = 3;
-            in_order(threads, 3..20_000, |n| Ok(n.start * n.start), |n, r| {
-                assert_eq!((n.start, r), (next, n.start * n.start));
-                next = n.end;
-                Ok(())
-            })
+            in_order(
+                threads,
+                3..20_000,
+                |n| Ok(n.start * n.start),
+                |n, r| {
+                    assert_eq!((n.start, r), (next, n.start * n.start));
+                    next = n.end;
+                    Ok(())
+                },
+            )
             .unwrap();
             assert_eq!(next, 20_000);
             let mut count = 0;

@@ -88,7 +88,10 @@ fn threads_shards_and_order_leave_no_trace() {
         assert_eq!(merge(&reversed, &at(&format!("merged-{of}")), false).unwrap().0, whole);
         assert_eq!(files(&at("one")), files(&at(&format!("merged-{of}"))));
         assert!(
-            merge(&folders[1..], &at("missing"), false).unwrap_err().to_string().contains(&format!("shard 1/{of} is missing"))
+            merge(&folders[1..], &at("missing"), false)
+                .unwrap_err()
+                .to_string()
+                .contains(&format!("shard 1/{of} is missing"))
         );
     }
 }

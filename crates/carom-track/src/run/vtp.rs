@@ -187,7 +187,14 @@ fn trajectories(folder: &Path, disk: &dyn Disk) -> Result<u64, RunError> {
         "NumberOfPoints=\"{points}\" NumberOfVerts=\"0\" NumberOfLines=\"{lines}\" NumberOfStrips=\"0\" NumberOfPolys=\"0\""
     );
     let groups = vec![
-        ("PointData", vec![Array::floats::<1>("time", points), Array::floats::<3>("velocity", points), Array::floats::<3>("spin", points)]),
+        (
+            "PointData",
+            vec![
+                Array::floats::<1>("time", points),
+                Array::floats::<3>("velocity", points),
+                Array::floats::<3>("spin", points),
+            ],
+        ),
         ("CellData", vec![Array::integers("particle", lines)]),
         ("Points", vec![Array::floats::<3>("points", points)]),
         ("Lines", vec![Array::integers("connectivity", points), Array::integers("offsets", lines)]),
@@ -243,8 +250,7 @@ fn deposit(folder: &Path, state: &State, disk: &dyn Disk) -> Result<u64, RunErro
     if triangles.is_some() {
         groups.push(("Polys", vec![Array::integers("connectivity", 3 * polys), Array::integers("offsets", polys)]));
         let integers = ["wall", "face", "number", "impacts"].map(|name| Array::integers(name, cells));
-        let floats =
-            ["mass", "mean_impact_speed", "mean_impact_angle"].map(|name| Array::floats::<1>(name, cells));
+        let floats = ["mass", "mean_impact_speed", "mean_impact_angle"].map(|name| Array::floats::<1>(name, cells));
         groups.push(("CellData", integers.into_iter().chain(floats).collect()));
     }
     let path = unfinished(folder, DEPOSIT);
@@ -290,13 +296,7 @@ fn at(error: RunError, path: &Path) -> RunError {
 }
 
 /// Faces with what they kept and the means over the impacts on them.
-fn put_faces(
-    file: &mut Vtp,
-    triangles: Cells,
-    state: &State,
-    source: &Path,
-    mut point: u64,
-) -> Result<(), RunError> {
+fn put_faces(file: &mut Vtp, triangles: Cells, state: &State, source: &Path, mut point: u64) -> Result<(), RunError> {
     let mut offset = 0u64;
     let nothing = crate::deposition::FaceTally::default();
     triangles.each(source, |row| {

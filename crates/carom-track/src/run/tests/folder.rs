@@ -43,7 +43,7 @@ fn a_second_run_into_one_folder_is_refused_and_the_first_undisturbed() {
             let error = run(&other, &RunOptions { resume, force, ..options(&out, 2) }, &Silent).unwrap_err();
             assert!(matches!(error, RunError::Busy { .. }), "{error}");
         }
-        assert!(matches!(merge(&[out.clone()], &folder.path().join("merged"), false), Err(RunError::Busy { .. })));
+        assert!(matches!(merge(std::slice::from_ref(&out), &folder.path().join("merged"), false), Err(RunError::Busy { .. })));
     };
     meanwhile(&case, &out, second).unwrap();
     assert_eq!(files(&out), files(&alone));
@@ -57,7 +57,10 @@ fn a_run_is_replaced_only_where_it_is_said_and_leaves_nothing_behind() {
     let before = files(&out);
     let other = case_with("impacts = \"parquet\"\nfates = false\ntrajectories = 0\nvtk = false");
     let error = run(&other, &options(&out, 2), &Silent).unwrap_err().to_string();
-    assert!(error.contains("holds a finished run") && error.contains("--force") && error.contains("--resume"), "{error}");
+    assert!(
+        error.contains("holds a finished run") && error.contains("--force") && error.contains("--resume"),
+        "{error}"
+    );
     assert_eq!(files(&out), before);
     // what is not a run's stays
     fs::write(out.join("notes.txt"), "mine").unwrap();

@@ -152,7 +152,7 @@ fn small() -> Case {
         .replace("count = 3000", "count = 300")
         .replace("parcels = 2000", "parcels = 200")
         .replace("[output]", "[output]\nimpacts = \"parquet\"\ntrajectories = 30");
-    Case::from_toml(&text, Path::new("case.toml"), &Library::builtin()).unwrap()
+    Case::from_toml(&text, Path::new("case.toml"), Library::builtin()).unwrap()
 }
 
 #[test]
@@ -185,7 +185,10 @@ fn a_power_cut_loses_at_most_what_came_after_the_last_checkpoint() {
             disk.cut(&mut draws);
             let left = State::read(&out).unwrap_or_else(|e| panic!("seed {seed}: {e}")).map_or(0, |s| s.next);
             // what one checkpoint holds, which comes after each block
-            assert!(left >= known && left + block::SIZE >= promised, "seed {seed}: {left} of {promised}, {known} before");
+            assert!(
+                left >= known && left + block::SIZE >= promised,
+                "seed {seed}: {left} of {promised}, {known} before"
+            );
             known = left;
         }
         run(&case, &RunOptions { resume: true, ..options(&out, 2) }, &Silent)
