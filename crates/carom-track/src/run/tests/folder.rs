@@ -43,7 +43,10 @@ fn a_second_run_into_one_folder_is_refused_and_the_first_undisturbed() {
             let error = run(&other, &RunOptions { resume, force, ..options(&out, 2) }, &Silent).unwrap_err();
             assert!(matches!(error, RunError::Busy { .. }), "{error}");
         }
-        assert!(matches!(merge(std::slice::from_ref(&out), &folder.path().join("merged"), false), Err(RunError::Busy { .. })));
+        assert!(matches!(
+            merge(std::slice::from_ref(&out), &folder.path().join("merged"), false),
+            Err(RunError::Busy { .. })
+        ));
     };
     meanwhile(&case, &out, second).unwrap();
     assert_eq!(files(&out), files(&alone));
