@@ -2,6 +2,7 @@
 
 use super::{NormalLaw, WallLaw};
 use crate::impact::ImpactError;
+use crate::math;
 use crate::normal::ledger::{Adhesion, Ledger, Plastic};
 use crate::normal::{Size, damping};
 use crate::roughness::{AdhesionNumbers, adhesion_numbers};
@@ -38,12 +39,12 @@ fn root(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
 /// The greatest value of a function with one maximum on [low, high], by golden section of the logarithm.
 fn peak(low: f64, high: f64, f: impl Fn(f64) -> f64) -> f64 {
     const GOLDEN: f64 = 0.618_033_988_749_894_8;
-    let (mut a, mut b) = (low.ln(), high.ln());
+    let (mut a, mut b) = (math::ln(low), math::ln(high));
     for _ in 0..120 {
         let (c, d) = (b - GOLDEN * (b - a), a + GOLDEN * (b - a));
-        if f(c.exp()) > f(d.exp()) { b = d } else { a = c }
+        if f(math::exp(c)) > f(math::exp(d)) { b = d } else { a = c }
     }
-    (0.5 * (a + b)).exp()
+    math::exp(0.5 * (a + b))
 }
 
 impl Ledger {
@@ -79,7 +80,7 @@ impl Ledger {
                 let v_y = bons.yield_squared(size).sqrt();
                 let exhausted_velocity = match &self.adhesion {
                     // V_y²/v² = (v_c/v)^{4/5}
-                    Adhesion::Work => v_y * (v_y / adhesive).powf(2.0 / 3.0),
+                    Adhesion::Work => v_y * math::pow(v_y / adhesive, 2.0 / 3.0),
                     _ => f64::INFINITY,
                 };
                 return (adhesive < v_y).then_some(Window { capture_velocity: adhesive, exhausted_velocity });
@@ -172,7 +173,7 @@ impl WallLaw {
         }
         // sliding to the end ⇔ f(1 + e)v_n < (2/7)(1 + β₀)v_t
         let excess = |angle: f64| {
-            let (s, c) = angle.sin_cos();
+            let (s, c) = math::sin_cos(angle);
             let response = self.normal.respond(speed * s, (speed * c) * (speed * c), &size);
             let cap = friction * response.friction_share * (1.0 + response.e) * s;
             match &self.tangential {
