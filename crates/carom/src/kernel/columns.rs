@@ -396,8 +396,8 @@ fn rub<F: Fma, L: FrictionLaw, const MORE: bool>(
     friction_share: impl Fn(usize) -> f64,
 ) -> bool {
     let mut fine = true;
-    for i in 0..CHUNK {
-        fine &= Row::at(rows, i).rub::<_, _, MORE>(f, law, e[i], friction_share(i), out, i);
+    for (i, e) in e.iter().enumerate() {
+        fine &= Row::at(rows, i).rub::<_, _, MORE>(f, law, *e, friction_share(i), out, i);
     }
     fine
 }
