@@ -98,7 +98,7 @@ fn mesh(at: &At<StlText>, files: &Files) -> Result<Mesh, SpecError> {
         let [a, b, c] = &triangle.map_err(failed)?.vertices;
         triangles.push([corner(a), corner(b), corner(c)]);
     }
-    Mesh::new(triangles).ok_or_else(|| wrong(file, format!("{} has no triangle with an area", file.value)))
+    Mesh::new(&triangles).ok_or_else(|| wrong(file, format!("{} has no triangle with an area", file.value)))
 }
 
 /// A wall may slide along itself, not leave its place.
