@@ -45,6 +45,8 @@ pub struct Mesh {
 
 /// Share of the coordinates by which a point stays off.
 const SKIN: f64 = 1e-12;
+/// Precision of corners computed in double precision, as a share of the largest coordinate.
+const DOUBLE: f64 = 8e-15;
 /// Up to so many planes are looked at side by side before triangles are.
 const FEW: usize = 12;
 
@@ -53,7 +55,7 @@ impl Mesh {
     ///
     /// Neighbours whose corners lie in one plane but for rounding in double precision are flat together.
     pub fn new(triangles: &[Triangle]) -> Option<Self> {
-        Self::with_precision(triangles, 1e-15)
+        Self::with_precision(triangles, 0.0)
     }
 
     /// Likewise of triangles whose corners were rounded to a share `precision` of the largest coordinate: neighbours that lie
@@ -62,7 +64,7 @@ impl Mesh {
         let sound = triangles.iter().flatten().filter(|x| x.iter().all(|c| c.is_finite()));
         let all = Bounds::around(sound.copied());
         let largest = all.min.iter().chain(&all.max).fold(0.0f64, |m, c| m.max(c.abs()));
-        let (mut surface, sides) = Surface::new(triangles, precision.max(1e-15) * largest);
+        let (mut surface, sides) = Surface::new(triangles, precision.max(DOUBLE) * largest);
         if surface.faces.is_empty() {
             return None;
         }
@@ -87,6 +89,11 @@ impl Mesh {
     /// The box around it.
     pub fn bounds(&self) -> Bounds {
         self.bounds
+    }
+
+    /// Whether it is the surface of a block, and so has an inside.
+    pub fn is_block(&self) -> bool {
+        self.solid.is_some()
     }
 
     /// How many triangles.

@@ -1,10 +1,10 @@
 //! What of a triangulated wall is near a point.
 
+use super::super::Bounds;
 use super::Mesh;
+use super::Triangle;
 use super::rim::{self, Reach};
 use super::surface::Face;
-use super::Triangle;
-use super::super::Bounds;
 use crate::vector::{Vec3, add, dot, norm, scale, sub, unit};
 
 /// The part of a triangle that a point is nearest to.
@@ -83,19 +83,23 @@ impl Mesh {
         let reach = self.reach(clearance, slack);
         let far = reach.clearance + slack.max(reach.slack);
         self.around(x, far, &mut |_, face| {
+            let flat = &self.surface.flats[face.flat as usize];
+            let height = flat.height(x);
+            if height.abs() > far {
+                return false;
+            }
+            if self.surface.is_over(face, x, reach.beside()) {
+                tell(face.number, scale(flat.normal, height.signum()), height.abs() - reach.clearance);
+                return false;
+            }
             let (foot, part) = nearest(&self.surface.triangle(face), x);
             let gap = norm(sub(x, foot)) - reach.clearance;
             if gap <= far - reach.clearance
                 && let Some(away) = unit(sub(x, foot))
                 && self.leads_away(face, part, foot, away, reach)
-                && (part == Part::Face || !self.is_on_a_face(x, foot, reach))
+                && !self.is_on_a_face(x, foot, reach)
             {
-                let flat = &self.surface.flats[face.flat as usize];
-                let normal = match part {
-                    Part::Face => scale(flat.normal, flat.height(x).signum()),
-                    _ => away,
-                };
-                tell(face.number, normal, gap);
+                tell(face.number, away, gap);
             }
             false
         });

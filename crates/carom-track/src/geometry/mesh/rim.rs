@@ -3,8 +3,8 @@
 //! The distance from a line or a point is the root of a polynomial of degree ten, whose last digits drown where the path is
 //! long against the clearance: pieces of the path that come near are halved until they are short enough.
 
-use super::super::contact::{misses, overlapping_contact};
 use super::super::Bernstein;
+use super::super::contact::{misses, overlapping_contact};
 use super::piece::Piece;
 use crate::vector::{Vec3, add, dot, norm, scale, sub, unit};
 
@@ -70,8 +70,7 @@ fn near_edge(
     if norm(path.points[4]) + bend > LONGEST * reach.clearance && *rest > 0 {
         *rest -= 1;
         let (first, second) = piece.halves();
-        return near_edge(a, b, &first, reach, accept, rest)
-            .or_else(|| near_edge(a, b, &second, reach, accept, rest));
+        return near_edge(a, b, &first, reach, accept, rest).or_else(|| near_edge(a, b, &second, reach, accept, rest));
     }
     let along = sub(b, a);
     let length = norm(along);
@@ -89,12 +88,7 @@ fn near_edge(
 }
 
 /// Likewise of a corner.
-pub(super) fn corner(
-    a: Vec3,
-    piece: &Piece,
-    reach: Reach,
-    accept: &mut dyn FnMut(Vec3, Vec3) -> bool,
-) -> Option<f64> {
+pub(super) fn corner(a: Vec3, piece: &Piece, reach: Reach, accept: &mut dyn FnMut(Vec3, Vec3) -> bool) -> Option<f64> {
     near_corner(a, piece, reach, accept, &mut { MOST })
 }
 
@@ -113,8 +107,7 @@ fn near_corner(
     if norm(path.points[4]) + bend > LONGEST * reach.clearance && *rest > 0 {
         *rest -= 1;
         let (first, second) = piece.halves();
-        return near_corner(a, &first, reach, accept, rest)
-            .or_else(|| near_corner(a, &second, reach, accept, rest));
+        return near_corner(a, &first, reach, accept, rest).or_else(|| near_corner(a, &second, reach, accept, rest));
     }
     let r0 = sub(path.start, a);
     // a corner is passed at a distance far more often than met
@@ -124,7 +117,8 @@ fn near_corner(
         return None;
     }
     let (gap, change) = square(r0, &path.points, reach.clearance);
-    let theta = overlapping_contact(gap, &change, 2.0 * reach.clearance * reach.slack, |theta| accept(path.at(theta), a))?;
+    let theta =
+        overlapping_contact(gap, &change, 2.0 * reach.clearance * reach.slack, |theta| accept(path.at(theta), a))?;
     Some(piece.theta(theta))
 }
 
@@ -180,4 +174,3 @@ fn ends(p: Vec3, d: Vec3, q: Vec3, e: Vec3) -> f64 {
     let first = beside(q, e, p).min(beside(q, e, add(p, d)));
     first.min(beside(p, d, q)).min(beside(p, d, add(q, e)))
 }
-

@@ -7,7 +7,7 @@
 
 use super::Triangle;
 use super::rim;
-use crate::vector::{Vec3, add, cross, dot, norm, scale, sub, unit};
+use crate::vector::{Vec3, add, cross, dot, frame, norm, scale, sub, unit};
 use rayon::prelude::*;
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
@@ -34,7 +34,8 @@ pub(super) struct Face {
     pub flat: u32,
     /// Where it was in the list given.
     pub number: u32,
-    /// Bits 0 to 2: edges (from that corner to the next) that it has to look after; bits 3 to 5: corners.
+    /// As many of bits 0 to 2 as it has edges to look after; bits 3 to 5: corners; bits 6 and 7: whether one of these can be
+    /// touched from the side that the plane's normal points to, and from the other.
     pub rim: u32,
     /// Its first edge in the list of edges.
     pub first_edge: u32,
@@ -160,33 +161,61 @@ impl Surface {
         let mut flats: Vec<Flat> = Vec::new();
         let mut of = vec![NONE; self.faces.len()];
         let mut many = Vec::new();
-        let mut waiting = Vec::new();
         for (_, seed) in order {
-            if of[seed as usize] != NONE {
-                continue;
+            if of[seed as usize] == NONE {
+                let (flat, size) = self.grow(seed, flats.len() as u32, &neighbours, &mut of, precision);
+                flats.push(flat);
+                many.push(size > 1);
             }
-            let flat = self.own_flat(&self.faces[seed as usize]);
-            let number = flats.len() as u32;
-            flats.push(flat);
-            of[seed as usize] = number;
-            waiting.push(seed);
-            let mut size = 0;
-            while let Some(face) = waiting.pop() {
-                size += 1;
-                let run = neighbours.0[face as usize] as usize..neighbours.0[face as usize + 1] as usize;
-                for next in &neighbours.1[run] {
-                    let place = &mut of[*next as usize];
-                    if *place == NONE && self.lies_in(&flat, &self.faces[*next as usize], precision) {
-                        *place = number;
-                        waiting.push(*next);
-                    }
-                }
-            }
-            many.push(size > 1);
         }
         self.faces.iter_mut().zip(of).for_each(|(f, flat)| f.flat = flat);
         self.settle(&mut flats, &mut many, precision);
         self.flats = flats;
+    }
+
+    /// Gives a triangle the plane of that number, and all those about it that lie in it. The plane of one triangle is told by
+    /// its corners' rounding no better than over its own size: it is fitted again to all there are as they become more.
+    fn grow(&self, seed: u32, number: u32, neighbours: &Runs, of: &mut [u32], precision: f64) -> (Flat, usize) {
+        let mut fit = Fit::new(self.own_flat(&self.faces[seed as usize]));
+        let mut flat = fit.first;
+        self.triangle(&self.faces[seed as usize]).iter().for_each(|x| fit.add(*x));
+        let mut members = vec![seed];
+        of[seed as usize] = number;
+        let (mut front, mut next) = (vec![seed], Vec::new());
+        loop {
+            let before = members.len();
+            while let Some(face) = front.pop() {
+                let mut refused = false;
+                for other in neighbours.of(face) {
+                    if of[*other as usize] != u32::MAX {
+                        continue;
+                    }
+                    if self.lies_in(&flat, &self.faces[*other as usize], precision) {
+                        of[*other as usize] = number;
+                        members.push(*other);
+                        front.push(*other);
+                    } else {
+                        refused = true;
+                    }
+                }
+                if refused {
+                    next.push(face);
+                }
+            }
+            let new = members[before..].iter().flat_map(|f| self.triangle(&self.faces[*f as usize]));
+            new.for_each(|x| fit.add(x));
+            // flat to the last digit, or nothing more to learn
+            if members.len() == before || fit.is_exact() {
+                return (flat, members.len());
+            }
+            let fitted = fit.flat();
+            let lies = |f: &u32| self.lies_in(&fitted, &self.faces[*f as usize], precision);
+            if !members.iter().all(lies) {
+                return (flat, members.len());
+            }
+            flat = fitted;
+            std::mem::swap(&mut front, &mut next);
+        }
     }
 
     fn lies_in(&self, flat: &Flat, face: &Face, precision: f64) -> bool {
@@ -227,7 +256,8 @@ impl Surface {
                 continue;
             }
             let moved = onto(x, &planes);
-            let fits = planes.iter().all(|f| f.height(moved).abs() <= 4.0 * tiny) && norm(sub(moved, x)) <= 8.0 * precision;
+            let fits =
+                planes.iter().all(|f| f.height(moved).abs() <= 4.0 * tiny) && norm(sub(moved, x)) <= 8.0 * precision;
             if fits {
                 self.corners[corner as usize] = moved;
             } else {
@@ -256,10 +286,11 @@ impl Surface {
         sides.par_iter_mut().for_each(|s| s.face = place[s.face as usize]);
         sides.chunk_by_mut(|a, b| a.ends == b.ends).for_each(|g| g.sort_unstable_by_key(|s| s.face));
         let groups: Vec<&[Side]> = sides.chunk_by(|a, b| a.ends == b.ends).collect();
-        let mut edges: Vec<&[Side]> = groups.par_iter().copied().filter(|g| self.edge_sticks_out(g)).collect();
-        edges.par_sort_unstable_by_key(|g| (g[0].face, g[0].ends));
+        let mut edges: Vec<(&[Side], u32)> =
+            groups.par_iter().filter_map(|g| Some((*g, self.edge_sticks_out(g)?))).collect();
+        edges.par_sort_unstable_by_key(|(g, _)| (g[0].face, g[0].ends));
         let mut candidates = vec![false; self.corners.len()];
-        for group in edges {
+        for (group, sides) in edges {
             let ends = [group[0].ends.0, group[0].ends.1];
             ends.iter().for_each(|c| candidates[*c as usize] = true);
             let first = self.opposite.len() as u32;
@@ -269,7 +300,7 @@ impl Surface {
                 owner.first_edge = self.edges.len() as u32;
             }
             // their number is what matters
-            owner.rim = (owner.rim & !7) | ((owner.rim & 7) << 1) | 1;
+            owner.rim = (owner.rim & !7) | ((owner.rim & 7) << 1) | 1 | sides;
             self.edges.push(Edge { ends, opposite: [first, self.opposite.len() as u32] });
         }
         self.fans = fans(&candidates, &groups);
@@ -278,12 +309,12 @@ impl Surface {
 
     /// Gives each corner that sticks out to the first triangle that has it.
     fn keep_corners(&mut self, candidates: &[bool]) {
-        let out = candidates.par_iter().enumerate().map(|(c, may)| *may && self.corner_sticks_out(c));
-        let mut out: Vec<bool> = out.collect();
+        let out = candidates.par_iter().enumerate().map(|(c, may)| if *may { self.corner_sticks_out(c) } else { None });
+        let mut out: Vec<Option<Vec<Vec3>>> = out.collect();
         for face in &mut self.faces {
             for (i, c) in face.corners.iter().enumerate() {
-                if std::mem::take(&mut out[*c as usize]) {
-                    face.rim |= 8 << i;
+                if let Some(ways) = out[*c as usize].take() {
+                    face.rim |= (8 << i) | sides(self.flats[face.flat as usize].normal, &ways);
                 }
             }
         }
@@ -295,37 +326,70 @@ impl Surface {
         self.fans.1[run].iter().filter_map(move |c| unit(sub(self.corners[*c as usize], self.corners[corner])))
     }
 
-    /// Whether there are directions across an edge that lead away from all its triangles.
-    fn edge_sticks_out(&self, group: &[Side]) -> bool {
+    /// Whether there are directions across an edge that lead away from all its triangles, and then the sides of the first
+    /// triangle that they are on.
+    fn edge_sticks_out(&self, group: &[Side]) -> Option<u32> {
         let [a, b] = [group[0].ends.0, group[0].ends.1].map(|c| self.corners[c as usize]);
-        let ways: Vec<Vec3> = group
-            .iter()
-            .filter_map(|s| rim::across(a, b, self.corners[s.opposite as usize]))
-            .collect();
-        if let [one, other] = group
-            && self.faces[one.face as usize].flat == self.faces[other.face as usize].flat
-            && let [u, v] = ways.as_slice()
-            && dot(*u, *v) < 0.0
+        let flat = |s: &Side| self.faces[s.face as usize].flat;
+        let ways: Vec<Vec3> =
+            group.iter().filter_map(|s| rim::across(a, b, self.corners[s.opposite as usize])).collect();
+        let first = *ways.first()?;
+        let two = if let [_, second] = ways.as_slice() { Some(*second) } else { None };
+        if let ([one, other], Some(second)) = (group, two)
+            && flat(one) == flat(other)
+            && dot(first, second) < 0.0
         {
-            return false;
+            return None;
         }
         // the widest angle between neighbouring directions must exceed half a turn
-        let Some(first) = ways.first().copied() else { return false };
-        let Some(along) = unit(sub(b, a)) else { return false };
-        let second = cross(along, first);
-        let mut angles: Vec<f64> = ways.iter().map(|u| dot(*u, second).atan2(dot(*u, first))).collect();
+        let normal = cross(unit(sub(b, a))?, first);
+        let mut angles: Vec<f64> = ways.iter().map(|u| dot(*u, normal).atan2(dot(*u, first))).collect();
         angles.sort_by(f64::total_cmp);
         let turn = 2.0 * std::f64::consts::PI;
-        let last = angles[angles.len() - 1];
-        let widest = angles.windows(2).map(|w| w[1] - w[0]).fold(angles[0] + turn - last, f64::max);
-        widest > 0.5 * turn + 1e-9
+        let wrapped = angles[0] + turn - angles[angles.len() - 1];
+        let widest = angles.windows(2).map(|w| w[1] - w[0]).fold(wrapped, f64::max);
+        if widest <= 0.5 * turn + 1e-9 {
+            return None;
+        }
+        // with a right or obtuse angle between two triangles all directions away are on one side of the first
+        let one_side = two.filter(|second| dot(first, *second) < 1e-12);
+        Some(one_side.map_or(BOTH, |second| sides(self.flats[flat(&group[0]) as usize].normal, &[scale(second, -1.0)])))
     }
 
-    /// Whether there may be directions that lead away from all edges of a corner: not where two go on straight, as on a crease.
-    /// What is touched is judged anew at each contact.
-    fn corner_sticks_out(&self, corner: usize) -> bool {
+    /// The outermost directions that lead away from all edges of a corner; none if there is no such direction inside of them.
+    fn corner_sticks_out(&self, corner: usize) -> Option<Vec<Vec3>> {
         let fan: Vec<Vec3> = self.fan(corner).collect();
-        !fan.iter().any(|d| fan.iter().any(|e| dot(*d, *e) < -1.0 + 1e-14))
+        if fan.len() < 3 || fan.len() > 16 {
+            // two directions leave a half plane to either side; many take long to tell
+            return Some(vec![[0.0; 3]]);
+        }
+        // on a crease or a border that runs straight through
+        if fan.iter().any(|d| fan.iter().any(|e| dot(*d, *e) < -1.0 + 1e-14)) {
+            return None;
+        }
+        let mut ways = Vec::new();
+        for (i, d) in fan.iter().enumerate() {
+            for e in &fan[..i] {
+                let Some(way) = unit(cross(*d, *e)) else { continue };
+                let leads_away = |w: &Vec3| fan.iter().all(|d| dot(*d, *w) <= 1e-12);
+                ways.extend([way, scale(way, -1.0)].into_iter().filter(leads_away));
+            }
+        }
+        let middle = ways.iter().fold([0.0; 3], |sum, w| add(sum, *w));
+        fan.iter().all(|d| dot(*d, middle) < -1e-9).then_some(ways)
+    }
+}
+
+/// Both sides of a plane.
+const BOTH: u32 = 3 << 6;
+
+/// The sides of a plane that directions are on; none of the plane's own counts for both.
+fn sides(normal: Vec3, ways: &[Vec3]) -> u32 {
+    let (up, down) = (ways.iter().any(|w| dot(*w, normal) > 1e-9), ways.iter().any(|w| dot(*w, normal) < -1e-9));
+    match (up, down) {
+        (true, false) => 1 << 6,
+        (false, true) => 2 << 6,
+        _ => BOTH,
     }
 }
 
@@ -349,18 +413,76 @@ fn onto(x: Vec3, planes: &[Flat]) -> Vec3 {
     moved
 }
 
-/// For each triangle the others at its sides: where each run begins, and the runs.
-fn neighbours(faces: usize, sides: &[Side]) -> (Vec<u32>, Vec<u32>) {
+/// A plane near that of the first three corners, fitted to more by least squares.
+struct Fit {
+    first: Flat,
+    along: [Vec3; 2],
+    /// Sums of 1, s, t, s², st, t² and of h, sh, th, where s, t are places along the plane and h heights over it.
+    places: [f64; 6],
+    heights: [f64; 3],
+    highest: f64,
+}
+
+impl Fit {
+    fn new(first: Flat) -> Self {
+        let (t, b) = frame(first.normal);
+        Self { first, along: [t, b], places: [0.0; 6], heights: [0.0; 3], highest: 0.0 }
+    }
+
+    fn add(&mut self, x: Vec3) {
+        let r = sub(x, self.first.point);
+        let (s, t, h) = (dot(r, self.along[0]), dot(r, self.along[1]), dot(r, self.first.normal));
+        self.places.iter_mut().zip([1.0, s, t, s * s, s * t, t * t]).for_each(|(sum, v)| *sum += v);
+        self.heights.iter_mut().zip([h, s * h, t * h]).for_each(|(sum, v)| *sum += v);
+        let size = x.iter().fold(0.0f64, |m, c| m.max(c.abs()));
+        self.highest = self.highest.max(h.abs() - 1e-15 * size);
+    }
+
+    /// Whether all lie in the first plane but for rounding in double precision.
+    fn is_exact(&self) -> bool {
+        self.highest <= 0.0
+    }
+
+    fn flat(&self) -> Flat {
+        let ([n, s, t, ss, st, tt], [h, sh, th]) = (self.places, self.heights);
+        // about the mean place
+        let (ss, st, tt) = (ss - s * s / n, st - s * t / n, tt - t * t / n);
+        let (sh, th) = (sh - s * h / n, th - t * h / n);
+        let det = ss * tt - st * st;
+        let slopes = [(sh * tt - th * st) / det, (th * ss - sh * st) / det];
+        if !(det > 1e-12 * ss * tt && slopes.iter().all(|s| s.is_finite())) {
+            return self.first;
+        }
+        let lean = add(scale(self.along[0], slopes[0]), scale(self.along[1], slopes[1]));
+        let middle = add(scale(self.along[0], s / n), scale(self.along[1], t / n));
+        let point = add(self.first.point, add(middle, scale(self.first.normal, h / n)));
+        unit(sub(self.first.normal, lean)).map_or(self.first, |normal| Flat { point, normal })
+    }
+}
+
+/// Numbers in runs.
+struct Runs(Vec<u32>, Vec<u32>);
+
+impl Runs {
+    fn of(&self, i: u32) -> &[u32] {
+        &self.1[self.0[i as usize] as usize..self.0[i as usize + 1] as usize]
+    }
+}
+
+/// For each triangle the others at its sides.
+fn neighbours(faces: usize, sides: &[Side]) -> Runs {
     let pairs = || {
         let groups = sides.chunk_by(|a, b| a.ends == b.ends);
         groups.flat_map(|g| {
             // where very many meet, each with the next is enough
             let all = if g.len() <= 8 { g.len() } else { 1 };
-            let pairs = (0..g.len()).flat_map(move |i| (i + 1..g.len().min(i + 1 + all)).map(move |j| (g[i].face, g[j].face)));
+            let pairs =
+                (0..g.len()).flat_map(move |i| (i + 1..g.len().min(i + 1 + all)).map(move |j| (g[i].face, g[j].face)));
             pairs.flat_map(|(a, b)| [(a, b), (b, a)])
         })
     };
-    runs(faces, pairs)
+    let (starts, list) = runs(faces, pairs);
+    Runs(starts, list)
 }
 
 /// For each corner that counts the others that an edge leads to.

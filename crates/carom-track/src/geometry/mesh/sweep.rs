@@ -58,6 +58,9 @@ struct Falls {
     normal: Vec3,
     /// Nothing in the plane is within reach.
     is_clear: bool,
+    /// It starts on the side that the plane's own normal points to; within the clearance of the plane.
+    is_up: bool,
+    is_deep: bool,
 }
 
 impl Fall {
@@ -98,7 +101,14 @@ impl Falls {
         let change = along.scaled(sign, 0.0);
         let lowest = change.range_ahead().0;
         let is_clear = gap > slack && gap + lowest > slack;
-        let mut falls = Self { near: Fall { gap: change, ..Fall::NONE }, far: None, normal, is_clear };
+        let mut falls = Self {
+            near: Fall { gap: change, ..Fall::NONE },
+            far: None,
+            normal,
+            is_clear,
+            is_up: sign > 0.0,
+            is_deep: gap < -slack,
+        };
         if is_clear {
             return falls;
         }
@@ -114,6 +124,23 @@ impl Falls {
             falls.far = Some(Fall::new(change.scaled(-1.0, start), false, path));
         }
         falls
+    }
+}
+
+impl Falls {
+    /// Whether edges and corners that stick out to some sides of the plane may be touched before `best`: on the other side of
+    /// the plane the path comes only through it.
+    #[inline(always)]
+    fn may_reach(&self, rim: u32, best: f64) -> bool {
+        let starts_on = if self.is_up { 1 << 6 } else { 2 << 6 };
+        if rim & starts_on != 0 || self.near.now || self.is_deep {
+            return true;
+        }
+        match self.near.descents {
+            Descents::None => false,
+            Descents::One(theta) => theta < best,
+            Descents::Many => true,
+        }
     }
 }
 
@@ -141,12 +168,8 @@ impl Surface {
 
 impl<'a> Sweep<'a> {
     pub fn new(mesh: &'a Mesh, path: &'a Path, reach: Reach) -> Self {
-        let falls = Falls {
-            near: Fall::NONE,
-            far: None,
-            normal: [0.0; 3],
-            is_clear: true,
-        };
+        let falls =
+            Falls { near: Fall::NONE, far: None, normal: [0.0; 3], is_clear: true, is_up: true, is_deep: false };
         Self { mesh, path, reach, best: f64::INFINITY, found: None, flat: u32::MAX, falls }
     }
 
@@ -222,11 +245,11 @@ impl<'a> Sweep<'a> {
     #[inline(always)]
     fn may_hold(&mut self, flat: u32, node: &Node, child: usize) -> bool {
         self.turn_to(flat);
-        let Falls { near, far, normal, is_clear } = &self.falls;
+        let Falls { near, far, normal, is_clear, .. } = &self.falls;
         if *is_clear {
             return false;
         }
-        if near.now || far.is_some_and(|f| f.descents != Descents::None) {
+        if near.now || far.as_ref().is_some_and(|f| f.descents != Descents::None) {
             return true;
         }
         match near.descents {
@@ -236,7 +259,8 @@ impl<'a> Sweep<'a> {
                 let foot = sub(near.at, scale(*normal, self.reach.clearance));
                 let wide = |c: usize| self.reach.beside() + 1e-14 * foot[c].abs();
                 theta < self.best
-                    && (0..3).all(|c| foot[c] >= node.min[c][child] - wide(c) && foot[c] <= node.max[c][child] + wide(c))
+                    && (0..3)
+                        .all(|c| foot[c] >= node.min[c][child] - wide(c) && foot[c] <= node.max[c][child] + wide(c))
             }
         }
     }
@@ -250,17 +274,23 @@ impl<'a> Sweep<'a> {
         if self.falls.is_clear {
             return;
         }
-        let (path, beside) = (self.path, self.reach.beside());
+        let beside = self.reach.beside();
         let over = |x: Vec3| surface.is_over(face, x, beside);
-        for (fall, sign) in [(Some(self.falls.near), 1.0), (self.falls.far, -1.0)] {
-            if let Some(theta) = fall.and_then(|f| f.first(self.best, path, over))
-                && theta < self.best
-            {
-                self.best = theta;
-                self.found = Some(Found { face: index, normal: scale(self.falls.normal, sign), foot: None });
-            }
+        let falls = &self.falls;
+        let mut found = falls.near.first(self.best, self.path, over).map(|theta| (theta, falls.normal));
+        if let Some(far) = &falls.far
+            && let Some(theta) = far.first(self.best, self.path, over)
+            && found.is_none_or(|(near, _)| theta < near)
+        {
+            found = Some((theta, scale(falls.normal, -1.0)));
         }
-        if face.rim != 0 {
+        if let Some((theta, normal)) = found
+            && theta < self.best
+        {
+            self.best = theta;
+            self.found = Some(Found { face: index, normal, foot: None });
+        }
+        if face.rim != 0 && self.falls.may_reach(face.rim, self.best) {
             self.look_at_rim(index, piece);
         }
     }
@@ -277,7 +307,8 @@ impl<'a> Sweep<'a> {
             let mut touch = |x: Vec3, foot: Vec3| {
                 let leads_away = |c: &u32| {
                     let c = surface.corners[*c as usize];
-                    rim::across(a, b, c).is_some_and(|u| dot(u, sub(x, foot)) < -self.reach.tilt() * self.reach.clearance)
+                    rim::across(a, b, c)
+                        .is_some_and(|u| dot(u, sub(x, foot)) < -self.reach.tilt() * self.reach.clearance)
                 };
                 let opposite = &surface.opposite[edge.opposite[0] as usize..edge.opposite[1] as usize];
                 opposite.iter().all(leads_away) && !self.mesh.is_on_a_face(x, foot, self.reach)
@@ -295,7 +326,8 @@ impl<'a> Sweep<'a> {
                 let mut touch = |x: Vec3, foot: Vec3| {
                     let away = sub(x, foot);
                     let tilt = self.reach.tilt() * self.reach.clearance;
-                    surface.fan(*c as usize).all(|d| dot(d, away) < -tilt) && !self.mesh.is_on_a_face(x, foot, self.reach)
+                    surface.fan(*c as usize).all(|d| dot(d, away) < -tilt)
+                        && !self.mesh.is_on_a_face(x, foot, self.reach)
                 };
                 let theta = rim::corner(at, piece, self.reach, &mut touch);
                 self.take(theta, index, |_| at);

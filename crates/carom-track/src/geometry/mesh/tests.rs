@@ -1,4 +1,5 @@
 use super::*;
+use crate::vector::add;
 use proptest::prelude::*;
 
 const FLAT: Triangle = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
@@ -45,9 +46,7 @@ fn a_block_is_hit_on_its_rounded_corner() {
     let block = Mesh::block([0.0; 3], [1.0; 3]).unwrap();
     // straight at the corner at the origin, from outside along the diagonal
     let m = block.meet(&Path::straight([-1.0; 3], [1.0; 3]), 0.1, 1e-12).unwrap().0;
-    assert!(
-        (norm(m.position) - 0.1).abs() < 1e-14 && m.normal.iter().all(|c| (c + 1.0 / 3f64.sqrt()).abs() < 1e-13)
-    );
+    assert!((norm(m.position) - 0.1).abs() < 1e-14 && m.normal.iter().all(|c| (c + 1.0 / 3f64.sqrt()).abs() < 1e-13));
 }
 
 #[test]
@@ -65,4 +64,62 @@ fn a_box_of_triangles_is_the_room() {
         }
         prop_assert!((mesh.distance(x) - room.distance(x)).abs() < 1e-12);
     });
+}
+
+mod shapes;
+mod watertight;
+
+/// A quintic path of about that size.
+fn bent(start: Vec3, by: Vec3, bend: [Vec3; 4]) -> Path {
+    let mut path = Path::straight(start, by);
+    for (p, b) in path.points.iter_mut().zip(bend) {
+        *p = crate::vector::add(*p, b);
+    }
+    path
+}
+
+#[test]
+fn the_hierarchy_finds_what_a_look_at_every_triangle_does() {
+    let small = || prop::array::uniform3(-0.1f64..0.1);
+    let place = || prop::array::uniform3(-1.0f64..1.0);
+    let side = || prop::array::uniform3(-0.4f64..0.4);
+    let triangle = (place(), side(), side()).prop_map(|(a, b, c)| [a, add(a, b), add(a, c)]);
+    let hits = std::cell::Cell::new(0);
+    proptest!(ProptestConfig::with_cases(400), |(
+        all in prop::collection::vec(triangle, 1..200), start in place(), by in place(),
+        bend in prop::array::uniform4(small()), clearance in prop::sample::select(vec![0.0, 1e-3, 0.05]),
+    )| {
+        let path = bent(start, by, bend);
+        let one = |(i, t): (usize, &Triangle)| {
+            let met = Mesh::new(&[*t])?.meet(&path, clearance, 1e-12);
+            met.map(|(m, _)| (m.theta, i as u32))
+        };
+        let least = all.iter().enumerate().filter_map(one).min_by(|a, b| a.0.total_cmp(&b.0));
+        let met = Mesh::new(&all).and_then(|m| m.meet(&path, clearance, 1e-12)).map(|(m, face)| (m.theta, face));
+        hits.set(hits.get() + u32::from(met.is_some()));
+        match (met, least) {
+            // a point's skin depends on the coordinates of all
+            (Some(a), Some(b)) => prop_assert!((a.0 - b.0).abs() < 1e-9 && (a.1 == b.1 || clearance > 0.0), "{:?} {:?}", a, b),
+            (a, b) => prop_assert!(a.is_none() && b.is_none(), "{:?} {:?}", a, b),
+        }
+    });
+    assert!(hits.get() > 50, "{}", hits.get());
+}
+
+#[test]
+fn the_nearest_point_is_that_of_every_triangle() {
+    let place = || prop::array::uniform3(-1.0f64..1.0);
+    proptest!(ProptestConfig::with_cases(200), |(all in prop::collection::vec(prop::array::uniform3(place()), 1..60), x in place())| {
+        let mesh = Mesh::new(&all).unwrap();
+        let least = all.iter().map(|t| norm(sub(x, nearest::nearest(t, x).0))).fold(f64::INFINITY, f64::min);
+        prop_assert!((mesh.distance(x) - least).abs() < 1e-14);
+    });
+}
+
+#[test]
+fn what_has_no_area_is_counted() {
+    let line = [[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0]];
+    let mesh = Mesh::new(&[line, FLAT, [[0.0; 3], [0.0; 3], [1.0; 3]], [[f64::NAN; 3], [0.0; 3], [1.0; 3]]]).unwrap();
+    assert_eq!((mesh.len(), mesh.left_out(), mesh.triangles()), (1, 3, vec![(1, FLAT)]));
+    assert!(Mesh::new(&[line]).is_none() && Mesh::new(&[]).is_none());
 }

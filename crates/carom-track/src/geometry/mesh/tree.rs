@@ -95,7 +95,11 @@ impl Tree {
         let mut items: Vec<Item> = boxes
             .iter()
             .zip(0..)
-            .map(|(b, index)| Item { min: b.min.map(|c| (c as f32).next_down()), max: b.max.map(|c| (c as f32).next_up()), index })
+            .map(|(b, index)| Item {
+                min: b.min.map(|c| (c as f32).next_down()),
+                max: b.max.map(|c| (c as f32).next_up()),
+                index,
+            })
             .collect();
         let mut tree = Self::default();
         if !items.is_empty() {
@@ -131,7 +135,8 @@ impl Tree {
     /// Half the diagonal of a leaf's box, as a mean, m.
     pub fn leaf_size(&self) -> f64 {
         let leaves = self.nodes.iter().flat_map(Node::children).filter(|(_, c)| c.count > 0);
-        let (sum, count) = leaves.fold((0.0, 0.0f64), |(sum, n), (b, _)| (sum + 0.5 * norm(sub(b.max, b.min)), n + 1.0));
+        let (sum, count) =
+            leaves.fold((0.0, 0.0f64), |(sum, n), (b, _)| (sum + 0.5 * norm(sub(b.max, b.min)), n + 1.0));
         sum / count.max(1.0)
     }
 
