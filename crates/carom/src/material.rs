@@ -1,4 +1,4 @@
-//! Materials: density, Young's modulus, Poisson's ratio, surface energy and yield strength, each with its source.
+//! Materials: density, Young's modulus, Poisson's ratio, surface energy, yield strength and hardness, each with its source.
 //!
 //! A [`Library`] holds materials by name and alias; the built-in one is embedded from `data/materials/*.toml`, and users
 //! add their own in the same form. A property is a value with its unit, or a table that also says where it comes from:
@@ -41,8 +41,12 @@ pub struct Material {
     pub poisson_ratio: Option<f64>,
     /// Surface free energy, J/m².
     pub surface_energy: Option<f64>,
-    /// Tensile (yield) strength, Pa.
+    /// Yield strength of a body that flows before it breaks, Pa.
     pub yield_strength: Option<f64>,
+    /// Indentation hardness: mean pressure over the projected area of an indent, Pa.
+    pub hardness: Option<f64>,
+    /// Stress at which a body that does not flow breaks in tension or bending, Pa. No law reads it.
+    pub tensile_strength: Option<f64>,
     /// What it is, in a line.
     pub description: String,
     /// Other names it answers to.
@@ -68,7 +72,20 @@ impl Material {
         inline::parse(text)
     }
 
-    /// The property, if known.
+    /// The nominal value of a property, if known.
+    pub fn value(&self, kind: PropertyKind) -> Option<f64> {
+        match kind {
+            PropertyKind::Density => self.density,
+            PropertyKind::YoungModulus => self.young_modulus,
+            PropertyKind::PoissonRatio => self.poisson_ratio,
+            PropertyKind::SurfaceEnergy => self.surface_energy,
+            PropertyKind::YieldStrength => self.yield_strength,
+            PropertyKind::Hardness => self.hardness,
+            PropertyKind::TensileStrength => self.tensile_strength,
+        }
+    }
+
+    /// Everything known about a property: range, source, alternatives.
     pub fn property(&self, kind: PropertyKind) -> Option<&Property> {
         self.properties.iter().find(|(k, _)| *k == kind).map(|(_, p)| p)
     }
@@ -87,6 +104,8 @@ impl Material {
             (PropertyKind::PoissonRatio, fields.poisson_ratio.map(|p| p.map(|q| q.0))),
             (PropertyKind::SurfaceEnergy, fields.surface_energy.map(|p| p.map(|q| q.0))),
             (PropertyKind::YieldStrength, fields.yield_strength.map(|p| p.map(|q| q.0))),
+            (PropertyKind::Hardness, fields.hardness.map(|p| p.map(|q| q.0))),
+            (PropertyKind::TensileStrength, fields.tensile_strength.map(|p| p.map(|q| q.0))),
         ];
         for (kind, property) in read {
             if let Some(property) = property {
@@ -107,6 +126,8 @@ impl Material {
             PropertyKind::PoissonRatio => self.poisson_ratio = value,
             PropertyKind::SurfaceEnergy => self.surface_energy = value,
             PropertyKind::YieldStrength => self.yield_strength = value,
+            PropertyKind::Hardness => self.hardness = value,
+            PropertyKind::TensileStrength => self.tensile_strength = value,
         }
         self.properties.push((kind, property));
     }

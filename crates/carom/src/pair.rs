@@ -5,10 +5,14 @@
 //! - compliance k_i = (1 − ν_i²)/(πE_i), 1/Pa (Eq. 6);
 //! - Hertzian stiffness K = 4/(3π(k₁ + k₂)), Pa (Eq. 5), the same as (4/3)E* with 1/E* = Σ(1 − ν_i²)/E_i;
 //! - work of adhesion w = γ₁ + γ₂ − γ₁₂ with γ₁₂ = γ₁ + γ₂ − 2Φ√(γ₁γ₂), so w = 2Φ√(γ₁γ₂), J/m² (Eqs 17, 18);
-//! - plastic constant k = σ/2 of the body that yields first, Pa.
+//! - plastic constant k of the body whose contact yields first, Pa: σ/2 from its yield strength σ, else H/λ from its hardness H, since
+//!   the model's limiting contact pressure λk (λ = 5.7, [`crate::normal::plastic`]) is what an indentation measures. The strength at
+//!   which a brittle body breaks in tension is no yield strength and is never used: under the pressure of a small contact silicon flows
+//!   at about 10 GPa, though a wafer breaks at 0.1 GPa.
 
 use crate::error::SpecError;
 use crate::material::Material;
+use crate::normal::plastic::LAMBDA;
 use std::f64::consts::PI;
 
 /// Values that replace what the materials would give.
@@ -22,6 +26,41 @@ pub struct Overrides {
     pub plastic_constant: Option<f64>,
     /// Interfacial parameter Φ, 1 when absent.
     pub interfacial_parameter: Option<f64>,
+    /// Factor on the plastic constant for strain rate and size, 1 when absent.
+    pub dynamic_strength_factor: Option<f64>,
+}
+
+/// What a plastic constant follows from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum StrengthSource {
+    /// Given as such.
+    Given,
+    /// The yield strength of a body: in a table, one of a bulk specimen in a slow test.
+    YieldStrength,
+    /// The hardness of a body: an indentation, slow as well.
+    Hardness,
+}
+
+/// The body of a pair that a value belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Body {
+    /// The sphere.
+    Sphere,
+    /// The surface.
+    Surface,
+}
+
+/// The plastic constant of a pair and where it comes from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Strength {
+    /// Plastic constant k, Pa, with the factor for strain rate and size in it.
+    pub plastic_constant: f64,
+    /// What it follows from.
+    pub source: StrengthSource,
+    /// The body that yields first; `None` where k was given for the pair.
+    pub body: Option<Body>,
 }
 
 /// Contact constants of two materials. What neither the materials nor an override give is `None`, and a law that
@@ -125,24 +164,63 @@ impl Pair {
             * (gamma(&self.sphere)? * gamma(&self.surface)?).sqrt())
     }
 
-    /// Plastic constant k = σ/2 of the body that yields first, Pa. A body without a yield strength is taken to stay
-    /// elastic (a ceramic on a metal), so one of the two is enough.
+    /// Plastic constant k, Pa, of the body whose contact yields first. A body with neither yield strength nor hardness is taken to
+    /// stay elastic, so one of the two is enough.
     ///
     /// # Errors
-    /// Neither material has a yield strength, and no override.
+    /// Neither material has a yield strength or a hardness, and no override.
+    ///
+    /// ```
+    /// use carom::{material::Library, pair::{Overrides, Pair, StrengthSource}};
+    /// let library = Library::builtin();
+    /// let pair = |sphere, surface| -> Result<_, carom::SpecError> {
+    ///     Ok(Pair::new(library.get(sphere)?, library.get(surface)?, &Overrides::default()))
+    /// };
+    /// // steel on silicon: the steel yields (sigma = 310 MPa), not the silicon, which is hard though it breaks at 120 MPa
+    /// assert_eq!(pair("stainless-steel", "silicon")?.plastic_constant()?, 155e6);
+    /// // quartz on silicon: both are brittle, and their hardness limits the pressure
+    /// assert_eq!(pair("quartz", "silicon")?.strength()?.source, StrengthSource::Hardness);
+    /// # Ok::<(), carom::SpecError>(())
+    /// ```
     pub fn plastic_constant(&self) -> Result<f64, SpecError> {
-        if let Some(k) = self.overrides.plastic_constant {
-            return Ok(k);
-        }
-        match (self.sphere.yield_strength, self.surface.yield_strength) {
-            (Some(a), Some(b)) => Ok(a.min(b) / 2.0),
-            (Some(a), None) | (None, Some(a)) => Ok(a / 2.0),
-            (None, None) => Err(SpecError::new(format!(
-                "neither {} nor {} has a yield strength",
+        self.strength().map(|s| s.plastic_constant)
+    }
+
+    /// The plastic constant with where it comes from.
+    ///
+    /// # Errors
+    /// As [`Pair::plastic_constant`].
+    pub fn strength(&self) -> Result<Strength, SpecError> {
+        let factor = self.overrides.dynamic_strength_factor.unwrap_or(1.0);
+        let strength = match self.overrides.plastic_constant {
+            Some(k) => Some(Strength { plastic_constant: k, source: StrengthSource::Given, body: None }),
+            None => weaker(strength_of(&self.sphere, Body::Sphere), strength_of(&self.surface, Body::Surface)),
+        };
+        let strength = strength.ok_or_else(|| {
+            SpecError::new(format!(
+                "neither {} nor {} has a yield strength or a hardness",
                 self.sphere.name, self.surface.name
             ))
-            .help("give yield_strength (sigma) of the softer one, or the pair's plastic_constant k = sigma/2")),
-        }
+            .help(
+                "give yield_strength (sigma) or hardness (H) of the softer one, or the pair's plastic_constant k = sigma/2",
+            )
+        })?;
+        Ok(Strength { plastic_constant: factor * strength.plastic_constant, ..strength })
+    }
+}
+
+/// What limits the pressure on one body: where it flows before it breaks its yield strength, else its hardness.
+fn strength_of(material: &Material, body: Body) -> Option<Strength> {
+    let ductile = material.yield_strength.map(|sigma| (sigma / 2.0, StrengthSource::YieldStrength));
+    let (plastic_constant, source) =
+        ductile.or(material.hardness.map(|hardness| (hardness / LAMBDA, StrengthSource::Hardness)))?;
+    Some(Strength { plastic_constant, source, body: Some(body) })
+}
+
+fn weaker(a: Option<Strength>, b: Option<Strength>) -> Option<Strength> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(if b.plastic_constant < a.plastic_constant { b } else { a }),
+        (a, b) => a.or(b),
     }
 }
 
@@ -200,5 +278,36 @@ mod tests {
         assert!(pair.stiffness().is_err_and(|e| e.to_string().contains("Young's modulus")));
         assert!(pair.work_of_adhesion().is_err_and(|e| e.to_string().contains("work_of_adhesion")));
         assert!(pair.plastic_constant().is_err_and(|e| e.to_string().contains("yield strength")));
+    }
+
+    fn strength(sphere: &str, surface: &str, overrides: &Overrides) -> Option<Strength> {
+        let material = |text| Material::from_inline(text).unwrap_or_else(|e| panic!("{text}: {e}"));
+        Pair::new(&material(sphere), &material(surface), overrides).strength().ok()
+    }
+
+    #[test]
+    fn the_weaker_of_yield_strength_and_hardness_limits_the_pressure_and_a_tensile_strength_never_does() {
+        use Body::{Sphere, Surface};
+        use StrengthSource::{Given, Hardness, YieldStrength};
+        let none = Overrides::default();
+        let given = Overrides { plastic_constant: Some(1e8), ..none };
+        let fast = Overrides { dynamic_strength_factor: Some(3.0), ..none };
+        for (sphere, surface, overrides, wanted) in [
+            // a ductile body's yield strength, whatever its hardness
+            ("sigma=310MPa,H=1.3GPa", "rho=1", none, Some((155e6, YieldStrength, Some(Sphere)))),
+            // a brittle body's hardness: the mean pressure 5.7 k is H
+            ("rho=1", "H=5.7GPa,sigma_t=120MPa", none, Some((1e9, Hardness, Some(Surface)))),
+            ("sigma=310MPa", "H=5.7GPa,sigma_t=120MPa", none, Some((155e6, YieldStrength, Some(Sphere)))),
+            ("sigma=4GPa", "H=5.7GPa,sigma_t=120MPa", none, Some((1e9, Hardness, Some(Surface)))),
+            ("sigma_t=120MPa", "sigma_t=50MPa", none, None),
+            // told to
+            ("rho=1", "sigma=120MPa,sigma_t=120MPa", none, Some((60e6, YieldStrength, Some(Surface)))),
+            ("sigma=310MPa", "H=5.7GPa", given, Some((1e8, Given, None))),
+            ("sigma=310MPa", "H=5.7GPa", fast, Some((3.0 * 155e6, YieldStrength, Some(Sphere)))),
+            ("sigma=310MPa", "rho=1", Overrides { plastic_constant: Some(1e8), ..fast }, Some((3e8, Given, None))),
+        ] {
+            let got = strength(sphere, surface, &overrides).map(|s| (s.plastic_constant, s.source, s.body));
+            assert_eq!(got, wanted, "{sphere} on {surface}");
+        }
     }
 }

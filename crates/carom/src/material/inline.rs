@@ -4,18 +4,13 @@ use super::{Material, Property, PropertyKind};
 use crate::error::{SpecError, did_you_mean};
 use crate::units::{Density, Number, Pressure, SurfaceEnergy, UnitError};
 
-const KEYS: [(&str, PropertyKind); 5] = [
-    ("rho", PropertyKind::Density),
-    ("E", PropertyKind::YoungModulus),
-    ("nu", PropertyKind::PoissonRatio),
-    ("gamma", PropertyKind::SurfaceEnergy),
-    ("sigma", PropertyKind::YieldStrength),
-];
-
 fn value(kind: PropertyKind, text: &str) -> Result<f64, UnitError> {
     Ok(match kind {
         PropertyKind::Density => text.parse::<Density>()?.0,
-        PropertyKind::YoungModulus | PropertyKind::YieldStrength => text.parse::<Pressure>()?.0,
+        PropertyKind::YoungModulus
+        | PropertyKind::YieldStrength
+        | PropertyKind::Hardness
+        | PropertyKind::TensileStrength => text.parse::<Pressure>()?.0,
         PropertyKind::PoissonRatio => text.parse::<Number>()?.0,
         PropertyKind::SurfaceEnergy => text.parse::<SurfaceEnergy>()?.0,
     })
@@ -30,11 +25,12 @@ pub(super) fn parse(text: &str) -> Result<Material, SpecError> {
             );
         };
         let key = key.trim();
-        let found = KEYS.into_iter().find(|(short, kind)| *short == key || kind.key() == key);
-        let Some((_, kind)) = found else {
-            let near = did_you_mean(key, KEYS.iter().map(|k| k.0)).map_or(String::new(), |s| format!("{s} "));
+        let found = PropertyKind::ALL.into_iter().find(|kind| kind.symbol() == key || kind.key() == key);
+        let Some(kind) = found else {
+            let symbols = PropertyKind::ALL.map(PropertyKind::symbol);
+            let near = did_you_mean(key, symbols).map_or(String::new(), |s| format!("{s} "));
             return Err(SpecError::new(format!("unknown property '{key}' in '{text}'"))
-                .help(format!("{near}known are rho, E, nu, gamma, sigma")));
+                .help(format!("{near}known are {}", symbols.join(", "))));
         };
         if material.property(kind).is_some() {
             return Err(SpecError::new(format!("'{key}' is given twice in '{text}'")).help("keep one of them"));

@@ -18,11 +18,26 @@ pub enum PropertyKind {
     PoissonRatio,
     /// Surface free energy, J/m².
     SurfaceEnergy,
-    /// Tensile (yield) strength, Pa.
+    /// Yield strength of a body that flows before it breaks, Pa.
     YieldStrength,
+    /// Indentation hardness: mean pressure over the projected area of an indent, Pa.
+    Hardness,
+    /// Stress at which a body that does not flow breaks in tension or bending, Pa. No law reads it.
+    TensileStrength,
 }
 
 impl PropertyKind {
+    /// All of them, in the order in which they are listed.
+    pub const ALL: [Self; 7] = [
+        Self::Density,
+        Self::YoungModulus,
+        Self::PoissonRatio,
+        Self::SurfaceEnergy,
+        Self::YieldStrength,
+        Self::Hardness,
+        Self::TensileStrength,
+    ];
+
     /// The key in a material file.
     pub fn key(self) -> &'static str {
         match self {
@@ -31,6 +46,21 @@ impl PropertyKind {
             Self::PoissonRatio => "poisson_ratio",
             Self::SurfaceEnergy => "surface_energy",
             Self::YieldStrength => "yield_strength",
+            Self::Hardness => "hardness",
+            Self::TensileStrength => "tensile_strength",
+        }
+    }
+
+    /// The short key of an inline material.
+    pub fn symbol(self) -> &'static str {
+        match self {
+            Self::Density => "rho",
+            Self::YoungModulus => "E",
+            Self::PoissonRatio => "nu",
+            Self::SurfaceEnergy => "gamma",
+            Self::YieldStrength => "sigma",
+            Self::Hardness => "H",
+            Self::TensileStrength => "sigma_t",
         }
     }
 
@@ -38,9 +68,9 @@ impl PropertyKind {
     pub fn unit(self) -> &'static str {
         match self {
             Self::Density => Density::SI,
-            Self::YoungModulus | Self::YieldStrength => Pressure::SI,
             Self::PoissonRatio => "",
             Self::SurfaceEnergy => SurfaceEnergy::SI,
+            _ => Pressure::SI,
         }
     }
 
@@ -49,11 +79,11 @@ impl PropertyKind {
         let numbers = [Some(property.value), property.low, property.high];
         for v in numbers.into_iter().flatten() {
             let (fine, right) = match self {
-                Self::Density | Self::YoungModulus | Self::YieldStrength => (v > 0.0, "a positive value is wanted"),
                 Self::SurfaceEnergy => (v >= 0.0, "zero or more is wanted"),
                 Self::PoissonRatio => {
                     (v > -1.0 && v < 0.5, "Poisson's ratio of a compressible solid lies between -1 and 0.5")
                 }
+                _ => (v > 0.0, "a positive value is wanted"),
             };
             if !(fine && v.is_finite()) {
                 let unit = if self.unit().is_empty() { String::new() } else { format!(" {}", self.unit()) };
@@ -261,6 +291,7 @@ macro_rules! checked_by_kind {
 checked_by_kind! {
     density: Density = Density, young_modulus: Pressure = YoungModulus, poisson_ratio: Number = PoissonRatio,
     surface_energy: SurfaceEnergy = SurfaceEnergy, yield_strength: Pressure = YieldStrength,
+    hardness: Pressure = Hardness, tensile_strength: Pressure = TensileStrength,
 }
 
 /// The keys of a material table; the short symbols of the command line are accepted too.
@@ -281,4 +312,8 @@ pub(super) struct Fields {
     pub surface_energy: Option<Written<SurfaceEnergy>>,
     #[serde(default, alias = "sigma", deserialize_with = "yield_strength")]
     pub yield_strength: Option<Written<Pressure>>,
+    #[serde(default, alias = "H", deserialize_with = "hardness")]
+    pub hardness: Option<Written<Pressure>>,
+    #[serde(default, alias = "sigma_t", deserialize_with = "tensile_strength")]
+    pub tensile_strength: Option<Written<Pressure>>,
 }

@@ -57,6 +57,39 @@ fn every_library_value_has_a_source_and_every_alias_one_owner() {
     assert_eq!(library.get("Stainless Steel").expect("there").name, "stainless-steel");
 }
 
+#[test]
+fn hardness_is_some_three_times_the_yield_strength_and_a_brittle_body_has_no_yield_strength() {
+    let library = Library::builtin();
+    let mut brittle = Vec::new();
+    for m in library.iter() {
+        if let (Some(hardness), Some(sigma)) = (m.hardness, m.yield_strength) {
+            let ratio = hardness / sigma;
+            // 2.8 without work hardening; annealed metals harden under the indenter
+            assert!((2.5..9.0).contains(&ratio), "{}: H is {ratio} sigma", m.name);
+        }
+        if let Some(tensile) = m.tensile_strength {
+            assert!(m.yield_strength.is_none(), "{} both yields and breaks", m.name);
+            assert!(m.hardness.is_some_and(|h| h > 20.0 * tensile), "{}: no hardness far above what breaks it", m.name);
+            brittle.push(m.name.as_str());
+        }
+        // a hardness is a pressure that the elastic half-space can bear: below a fifth of the modulus
+        assert!(m.hardness.zip(m.young_modulus).is_none_or(|(h, e)| h < 0.2 * e), "{}", m.name);
+    }
+    assert_eq!(
+        brittle,
+        [
+            "aluminium-oxide",
+            "aluminium-oxide-kharaz",
+            "borosilicate-glass",
+            "fused-silica",
+            "quartz",
+            "silicon",
+            "soda-lime-glass",
+            "soda-lime-glass-kharaz"
+        ]
+    );
+}
+
 fn refusal(text: &str) -> String {
     Library::default().extend_from_toml(text).expect_err("should be refused").located("my.toml", text)
 }
