@@ -22,7 +22,6 @@ pub mod integrate;
 mod lanes;
 pub mod random;
 pub mod record;
-mod rows;
 pub mod run;
 pub mod summary;
 pub mod tables;
