@@ -72,6 +72,8 @@ pub(super) struct Contact<'a, D: Domain> {
     pub normal: Vec3,
     rolls: bool,
     next: f64,
+    /// By how much a path is lifted off what the sphere touches, before other walls are looked for, m.
+    lift: Vec3,
 }
 
 /// How friction acts during a step.
@@ -115,7 +117,8 @@ impl<'a, D: Domain> Contact<'a, D> {
         let radius = body.radius[0];
         let height = walk.settings.settle_height.of(radius).max(1e-9 * radius);
         let next = 1e-3;
-        Self { walk, body, injection, height, here, time, motion, steps, worn: 0.0, wall, normal, rolls: false, next }
+        let (worn, rolls, lift) = (0.0, false, [0.0; 3]);
+        Self { walk, body, injection, height, here, time, motion, steps, worn, wall, normal, rolls, next, lift }
     }
 
     fn radius(&self) -> f64 {
@@ -164,6 +167,8 @@ impl<'a, D: Domain> Contact<'a, D> {
         let Some(first) = surface.list().first() else { return Err(Ending::Leaves(Event::LiftOff)) };
         (self.wall, self.normal) = (first.index, first.normal);
         let u = surface.wall_velocity();
+        let reach = LIFT * self.radius();
+        self.lift = contacts.iter().fold([0.0; 3], |l, c| add(l, scale(c.normal, reach)));
         self.motion.x = add(self.motion.x, surface.closing());
         self.motion.v = add(u, surface.along(sub(self.motion.v, u)));
         let ended = surface.list().iter().any(|c| c.rub == Rub::Ended);
@@ -173,6 +178,14 @@ impl<'a, D: Domain> Contact<'a, D> {
     /// Whether it stays where it is from the beginning; what it comes to else, if it does not move along a wall at all.
     pub fn begin(&mut self) -> Option<Ending> {
         self.surface().err()
+    }
+
+    /// Where the sphere is, exactly in contact with its wall.
+    pub fn place(&self) -> Vec3 {
+        let x = self.motion.x;
+        let Some(wall) = self.walk.domain.walls().list().get(self.wall) else { return x };
+        let gap = wall.shape.distance(x) - wall.clearance(self.radius());
+        if gap.abs() <= self.height { sub(x, scale(self.normal, gap)) } else { x }
     }
 
     /// The word for leaving by an impact on another wall.
@@ -384,7 +397,7 @@ impl<'a, D: Domain> Contact<'a, D> {
         let here = surface.at(m.x);
         let (a, turn) = self.steady(time, m);
         let pressed = here.press(m, a);
-        if !(pressed.least > 0.0) {
+        if !pressed.holds {
             return Some(Stop::Press);
         }
         match kind {
@@ -407,8 +420,7 @@ impl<'a, D: Domain> Contact<'a, D> {
     /// The first other wall, or other part of its wall, that the sphere meets.
     fn other_wall(&self, surface: &Surface, path: &Path) -> Option<Hit> {
         let walls = self.walk.domain.walls();
-        let lift = surface.list().iter().fold([0.0; 3], |l, c| add(l, scale(c.normal, LIFT * self.radius())));
-        let lifted = Path { start: add(path.start, lift), ..*path };
+        let lifted = Path { start: add(path.start, self.lift), ..*path };
         let mut first: Option<Hit> = None;
         for (index, wall) in walls.list().iter().enumerate() {
             let own = surface.list().iter().any(|c| c.index == index);

@@ -295,6 +295,7 @@ pub(super) fn record(lane: &Lane, time: f64, hit: &Hit, v: Vec3, spin: Vec3, aft
         position: hit.meeting.position,
         normal: n,
         wall: hit.wall,
+        face: hit.face,
         diameter: lane.particle.diameter,
         weight: lane.particle.weight,
         normal_speed_in: (-up_in).max(0.0),

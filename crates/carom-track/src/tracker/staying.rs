@@ -84,7 +84,7 @@ impl<D: Domain> Walk<'_, D> {
         let wall = contact.wall;
         if fate == Some(Fate::Settled) {
             let velocity = self.domain.walls().list().get(wall).map_or([0.0; 3], |w| w.velocity);
-            put(crew, l, contact.motion.x, velocity, [0.0; 3]);
+            put(crew, l, contact.place(), velocity, [0.0; 3]);
         }
         if let Some(event) = event {
             self.end_row(crew, l, &contact, began, event, sink);
@@ -130,7 +130,7 @@ impl<D: Domain> Walk<'_, D> {
         let all = left + contact.worn;
         let share = |e: f64| if all > 0.0 { e / all } else { 0.0 };
         let energy = Energy { friction: share(contact.worn), kept: share(left), ..Energy::default() };
-        let meeting = Meeting { theta: 0.0, position: m.x, normal: contact.normal };
+        let meeting = Meeting { theta: 0.0, position: contact.place(), normal: contact.normal };
         let hit = Hit { wall: contact.wall, face: None, meeting, wall_velocity };
         let after = After {
             event,
@@ -148,7 +148,7 @@ impl<D: Domain> Walk<'_, D> {
             [0, 1, 2].map(|c| v[c] - across * contact.normal[c])
         };
         debug_assert!(norm(contact.normal) > 0.5);
-        sink.impact(&record(lane, contact.time, &hit, along(began.v), began.spin, &after));
+        sink.contact_ended(&record(lane, contact.time, &hit, along(began.v), began.spin, &after));
     }
 }
 

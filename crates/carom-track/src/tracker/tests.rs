@@ -22,6 +22,9 @@ impl Sink for Log {
     fn impact(&mut self, impact: &ImpactRecord) {
         self.impacts.push(*impact);
     }
+    fn contact_ended(&mut self, row: &ImpactRecord) {
+        self.impacts.push(*row);
+    }
     fn point(&mut self, _: u64, _: f64, _: Vec3, _: Vec3, _: Vec3) {}
     fn end(&mut self, end: &End) {
         self.ends.push(*end);

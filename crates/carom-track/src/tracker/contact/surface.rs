@@ -29,6 +29,9 @@ impl Rub {
     }
 }
 
+/// Force across a wall, over the whole, that counts neither as leaning on it nor as pulling off it.
+const LEANS: f64 = 1e-9;
+
 /// One contact.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Held<'a> {
@@ -53,8 +56,8 @@ pub(super) struct Surface<'a> {
 pub(super) struct Pressed {
     /// Acceleration along the surface, and what keeps the sphere on a curved one, m/s².
     pub acceleration: Vec3,
-    /// The least force per mass of a contact, m/s²: where it is not above 0, that contact is lost.
-    pub least: f64,
+    /// Whether no contact is pulled off.
+    pub holds: bool,
     /// Σ f times the force per mass, m/s².
     pub friction: f64,
     /// Sum of the forces per mass, m/s².
@@ -76,14 +79,14 @@ impl<'a> Surface<'a> {
     /// Whether these contacts press, and no other one is pressed into.
     fn bears(&self, all: &[Held<'a>], motion: &Motion, a: Vec3) -> bool {
         let pressed = self.press(motion, a);
-        if self.count > 0 && !(pressed.least > 0.0) {
-            return false;
-        }
-        let size = norm(a);
-        all.iter().all(|c| {
-            self.list().iter().any(|own| own.index == c.index && dot(own.normal, c.normal) > 1.0 - 1e-9)
-                || dot(pressed.acceleration, c.normal) >= c.needs(motion) - 1e-12 * size
-        })
+        let leans = LEANS * norm(a);
+        // without any force there is nothing to hold it either
+        let off = if self.count == 0 { leans } else { -leans };
+        pressed.holds
+            && all.iter().all(|c| {
+                self.list().iter().any(|own| own.index == c.index && dot(own.normal, c.normal) > 1.0 - 1e-9)
+                    || dot(pressed.acceleration, c.normal) - c.needs(motion) >= off
+            })
     }
 
     /// The contacts.
@@ -142,11 +145,11 @@ impl<'a> Surface<'a> {
     pub fn press(&self, motion: &Motion, a: Vec3) -> Pressed {
         let rub = |c: &Held| if let Rub::Friction(f) = c.rub { f } else { 0.0 };
         match self.list() {
-            [] => Pressed { acceleration: a, least: 0.0, friction: 0.0, total: 0.0 },
+            [] => Pressed { acceleration: a, holds: true, friction: 0.0, total: 0.0 },
             [c] => {
                 let p = c.needs(motion) - dot(a, c.normal);
                 let acceleration = add(a, scale(c.normal, p));
-                Pressed { acceleration, least: p, friction: rub(c) * p.max(0.0), total: p }
+                Pressed { acceleration, holds: p > -LEANS * norm(a), friction: rub(c) * p.max(0.0), total: p }
             }
             [c, d, ..] => {
                 let (p, q) = (c.needs(motion) - dot(a, c.normal), d.needs(motion) - dot(a, d.normal));
@@ -155,7 +158,7 @@ impl<'a> Surface<'a> {
                 let (p, q) = ((p - cosine * q) * per, (q - cosine * p) * per);
                 let acceleration = add(add(a, scale(c.normal, p)), scale(d.normal, q));
                 let friction = rub(c) * p.max(0.0) + rub(d) * q.max(0.0);
-                Pressed { acceleration, least: p.min(q), friction, total: p + q }
+                Pressed { acceleration, holds: p.min(q) > -LEANS * norm(a), friction, total: p + q }
             }
         }
     }

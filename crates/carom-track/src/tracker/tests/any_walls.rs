@@ -17,6 +17,9 @@ impl Sink for Paths {
     fn impact(&mut self, impact: &ImpactRecord) {
         self.log.impact(impact);
     }
+    fn contact_ended(&mut self, row: &ImpactRecord) {
+        self.log.contact_ended(row);
+    }
     fn point(&mut self, _: u64, _: f64, x: Vec3, _: Vec3, _: Vec3) {
         self.points.push(x);
     }
