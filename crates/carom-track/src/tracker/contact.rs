@@ -47,7 +47,9 @@ const NO_SLIP: f64 = 1e-9;
 /// Force along the surface over the one across it that counts as none.
 const LEVEL: f64 = 1e-9;
 /// Share of the radius by which a path is lifted off its own wall before others are looked for.
-const LIFT: f64 = 1e-7;
+const LIFT: f64 = 1e-10;
+/// And of the coordinates: more than their rounding.
+const ROUNDED: f64 = 8e-15;
 /// Radii that a step may go along triangles: their edges are looked for four times a step.
 const STRIDE: f64 = 4.0;
 /// A step of a motion without end is long enough to call it that, s.
@@ -167,7 +169,8 @@ impl<'a, D: Domain> Contact<'a, D> {
         let Some(first) = surface.list().first() else { return Err(Ending::Leaves(Event::LiftOff)) };
         (self.wall, self.normal) = (first.index, first.normal);
         let u = surface.wall_velocity();
-        let reach = LIFT * self.radius();
+        let far = self.motion.x.iter().fold(0.0f64, |m, c| m.max(c.abs()));
+        let reach = (LIFT * self.radius()).max(ROUNDED * far);
         self.lift = contacts.iter().fold([0.0; 3], |l, c| add(l, scale(c.normal, reach)));
         self.motion.x = add(self.motion.x, surface.closing());
         self.motion.v = add(u, surface.along(sub(self.motion.v, u)));
@@ -427,7 +430,7 @@ impl<'a, D: Domain> Contact<'a, D> {
             if own && matches!(wall.shape, Shape::Cylinder(_) | Shape::Plane(_)) {
                 continue;
             }
-            let met = wall.shape.meet(&lifted, wall.clearance(self.radius()), 0.1 * LIFT * self.radius());
+            let met = wall.shape.meet(&lifted, wall.clearance(self.radius()), 0.1 * norm(self.lift));
             let Some((meeting, face)) = met else { continue };
             let is_own = |c: &Held| c.index == index && dot(c.normal, meeting.normal) > 1.0 - 1e-6;
             if surface.list().iter().any(is_own) || first.is_some_and(|f| f.meeting.theta <= meeting.theta) {

@@ -70,8 +70,12 @@ impl<D: Domain> Walk<'_, D> {
             }
             if after.bounces && (crew.lanes[l].standing > WEDGED || self.settles(crew, l, hit, &after)) {
                 let mut begun = self.contact(crew, l, hit, &after);
+                let standing = crew.lanes[l].standing;
                 match begun.begin() {
                     Some(Ending::Rests) => after = after.at_rest(hit),
+                    // wedged: no time passes, whatever it does
+                    Some(_) if standing > WEDGED => after = after.at_rest(hit),
+                    None if standing > 2 * WEDGED => after = after.at_rest(hit),
                     Some(_) => {}
                     None => contact = Some(begun),
                 }

@@ -103,7 +103,9 @@ impl<D: Domain> Walk<'_, D> {
 
     /// A lane flies again.
     fn fly_on<const W: usize>(&self, crew: &mut Crew<W, D::Here>, l: usize, since: f64) {
-        crew.lanes[l].standing = 0;
+        if crew.time[l] > since {
+            crew.lanes[l].standing = 0;
+        }
         crew.next[l] = self.first_step(crew, l);
         if self.has_chance() {
             self.renew(crew, l, crew.time[l] - since);
