@@ -3,6 +3,8 @@
 //! A fixed-point number wide enough for every double, in digits of 32 bits (Kulisch's long accumulator; see Neal 2015,
 //! arXiv:1505.05571). Only what is ≥ 0 and finite can be added.
 
+use carom::math::powi;
+
 /// Digits of 32 bits from 2⁻¹⁰⁷⁴ up: 2098 bits and room for carries.
 const DIGITS: usize = 68;
 const LOWEST: i32 = -1074;
@@ -82,7 +84,7 @@ impl ExactSum {
         // the conversion rounds to nearest even; the scale is a power of two, applied in two halves without loss
         let exponent = LOWEST + 32 * low as i32;
         let half = exponent / 2;
-        head as f64 * 2f64.powi(half) * 2f64.powi(exponent - half)
+        head as f64 * powi(2.0, half) * powi(2.0, exponent - half)
     }
 
     /// The digits that are not zero, for a file.

@@ -47,6 +47,9 @@
 //! | know what the tables hold | [`tables`] |
 //! | know how many stuck, where and how much mass | [`Summary`], [`deposition`] |
 
+// what depends on the platform is on no way to a result (clippy.toml)
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+
 pub mod about;
 mod block;
 pub mod case;
