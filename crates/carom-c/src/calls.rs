@@ -3,7 +3,8 @@
 use crate::impact::{ImpactIn, ImpactOut, LEAST_IN, LEAST_OUT};
 use crate::law::Law;
 use crate::status::{Status, fail, guard};
-use carom::wall::NormalLaw;
+use carom::math::{BEST, Fma, Fused};
+use carom::normal::NormalLaw;
 use carom::{Fate, Impact, ImpactError};
 use std::mem::size_of;
 
@@ -201,7 +202,7 @@ unsafe fn one(
         return unsafe { one_fma(law, impact, in_size, out, out_size) };
     }
     // SAFETY: as the caller promises.
-    unsafe { one_inlined(law, impact, in_size, out, out_size) }
+    unsafe { one_inlined(BEST, law, impact, in_size, out, out_size) }
 }
 
 /// # Safety
@@ -216,13 +217,14 @@ unsafe fn one_fma(
     out_size: usize,
 ) -> Result<(), ImpactError> {
     // SAFETY: as the caller promises.
-    unsafe { one_inlined(law, impact, in_size, out, out_size) }
+    unsafe { one_inlined(Fused, law, impact, in_size, out, out_size) }
 }
 
 /// # Safety
 /// As [`one`].
 #[inline(always)]
-unsafe fn one_inlined(
+unsafe fn one_inlined<F: Fma>(
+    f: F,
     law: &Law,
     impact: *const ImpactIn,
     in_size: usize,
@@ -231,7 +233,7 @@ unsafe fn one_inlined(
 ) -> Result<(), ImpactError> {
     // SAFETY: as the caller promises.
     let impact = unsafe { whole(impact, in_size) }.impact();
-    let answer = law.0.impact_inlined(&impact);
+    let answer = law.0.impact_on(f, &impact);
     let full = match &answer {
         Ok(outcome) => ImpactOut::of(outcome, out_size),
         Err(_) => ImpactOut::unmet(&impact, out_size),

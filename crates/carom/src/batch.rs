@@ -18,9 +18,8 @@
 //! # Ok::<(), carom::SpecError>(())
 //! ```
 
-mod kernel;
-
 use crate::impact::{Energy, Fate, Impact, ImpactError, Outcome};
+use crate::kernel::columns;
 use crate::wall::WallLaw;
 
 /// The draws of an impact that says nothing of them.
@@ -136,10 +135,11 @@ impl WallLaw {
         rebound: &mut Rebound,
     ) -> Result<(), BatchError> {
         self.check_lengths(incidence, rebound)?;
-        if self.scatter.is_some() {
+        if self.scatter().is_some() {
             return self.by_row(incidence, |_| MIDDLE, rebound);
         }
-        let all_fine = kernel::run(&kernel::Machine::new(set), self, incidence, rebound);
+        let set = if set.is_here() { set } else { InstructionSet::Portable };
+        let all_fine = columns::run(set, self.kernel(), &self.tables(), incidence, rebound);
         if let Some(energy) = rebound.energy.as_deref_mut() {
             for (i, out) in energy.iter_mut().enumerate() {
                 *out = self.planar(incidence, i, MIDDLE).map_or(Energy::default(), |o| o.energy);
@@ -170,7 +170,7 @@ impl WallLaw {
         let mut bad = Ok(());
         for index in 0..rows.normal.len() {
             let met = self.planar(rows, index, draws(index));
-            let [normal, tangential, spin, e, ratio] = met.as_ref().map_or([f64::NAN; 5], columns);
+            let [normal, tangential, spin, e, ratio] = met.as_ref().map_or([f64::NAN; 5], as_row);
             (out.normal[index], out.tangential[index], out.spin[index]) = (normal, tangential, spin);
             if let Some(column) = out.restitution.as_deref_mut() {
                 column[index] = e;
@@ -225,12 +225,12 @@ impl WallLaw {
     /// # Errors
     /// As [`WallLaw::impact`].
     pub fn impact_row(&self, rows: &Incidence, i: usize) -> Result<[f64; 5], ImpactError> {
-        Ok(columns(&self.planar(rows, i, MIDDLE)?))
+        Ok(as_row(&self.planar(rows, i, MIDDLE)?))
     }
 }
 
 /// An outcome as a row: normal and tangential speed, spin, restitution, impulse ratio.
-fn columns(out: &Outcome) -> [f64; 5] {
+fn as_row(out: &Outcome) -> [f64; 5] {
     match out.fate {
         Fate::Capture => [0.0, 0.0, 0.0, 0.0, f64::NAN],
         Fate::Rebound => [out.velocity[1], out.velocity[0], -out.spin[2], out.restitution, out.impulse_ratio],

@@ -131,6 +131,9 @@ pub enum ImpactError {
         "velocities and spins must be finite and below 1e9 m/s at the surface, the normal finite and not zero, draws in [0, 1)"
     )]
     NotFinite,
+    /// The sphere slips along the wall, and the law was given no friction coefficient.
+    #[error("the sphere slips along the wall, and the law has no friction coefficient")]
+    FrictionNotGiven,
     /// The concave surface is not wider than the sphere.
     #[error("the surface is concave and its radius of curvature must exceed the sphere's radius")]
     Curvature,

@@ -25,6 +25,7 @@
 pub mod batch;
 pub mod error;
 pub mod impact;
+pub mod kernel;
 pub mod material;
 pub mod math;
 pub mod normal;
@@ -42,6 +43,7 @@ pub mod wall;
 
 pub use error::SpecError;
 pub use impact::{Energy, Fate, Impact, ImpactError, Outcome, Vec3};
+pub use normal::Window;
 pub use tangential::Contact;
 pub use validity::Validity;
-pub use wall::{WallLaw, Window};
+pub use wall::WallLaw;

@@ -10,6 +10,7 @@
 
 mod fma;
 pub mod normal;
+pub mod root;
 
 pub use fma::{BEST, Best, Fma, Fused, Plain, Watched, watched};
 

@@ -1,12 +1,18 @@
 //! The standard normal distribution, with fixed bits.
 
-use super::{BEST, Fma, exp, ln_on, sqrt};
+use super::{BEST, Fma, exp_on, ln_on, sqrt};
 use core::f64::consts::{FRAC_1_SQRT_2, PI};
 
 /// Density e^{−x²/2}/√(2π).
 #[inline(always)]
 pub fn normal_density(x: f64) -> f64 {
-    exp(-0.5 * x * x) / sqrt(2.0 * PI)
+    normal_density_on(BEST, x)
+}
+
+/// As [`normal_density`].
+#[inline(always)]
+pub fn normal_density_on<F: Fma>(f: F, x: f64) -> f64 {
+    exp_on(f, -0.5 * x * x) / sqrt(2.0 * PI)
 }
 
 /// Probability that a standard normal deviate is at most `x`; the lower tail keeps its digits.

@@ -5,20 +5,15 @@ use super::curve::Which;
 use super::{At, LawSpec, NormalKind, NormalSpec};
 use crate::error::SpecError;
 use crate::material::{Library, Material, MaterialRef};
-use crate::normal::adhesion::{Jkr, Work};
-use crate::normal::bons::Bons;
-use crate::normal::damping::Damping;
+use crate::normal::adhesion::Work;
 use crate::normal::empirical::Curve;
-use crate::normal::ledger::{Adhesion, Ledger, Plastic};
-use crate::normal::plastic::Kadomtsev;
-use crate::normal::tabor::Tabor;
-use crate::normal::thornton_ning::{PRESSURE_OVER_STRENGTH, ThorntonNing};
-use crate::normal::{Loss, plastic};
+use crate::normal::ledger::TwoOfAKind;
+use crate::normal::{Inputs, Ledger, Loss, NormalLaw};
 use crate::pair::{Overrides, Pair};
-use crate::resolved::Resolved;
+use crate::resolved::{Damping, Resolved};
 use crate::roughness;
 use crate::validity::Validity;
-use crate::wall::{NormalLaw, WallLaw};
+use crate::wall::{About, Normal, Parts, WallLaw};
 
 /// The numbers of a law, each within its range.
 struct Numbers {
@@ -50,13 +45,20 @@ impl LawSpec {
         self.refuse_idle_keys(&normal_spec.value)?;
         let normal = self.normal_law(&normal_spec.value, pair.as_ref(), &numbers).map_err(|e| e.at(place))?;
         let tangential = self.tangential_law(pair.as_ref())?;
-        let mut law = WallLaw::assemble(normal, tangential, pair, numbers.surface_curvature);
-        law.roughness = roughness.height;
-        law.roughness_factor = roughness.factor;
-        law.spacing = numbers.spacing;
-        law.scatter = self.scatter()?;
-        law.validity = Validity::ROUGHNESS_EXTRAPOLATED.when(roughness.extrapolated && uses_roughness(&law.normal));
-        Ok(law)
+        let uses_roughness = matches!(&normal, Normal::Compiled(law) if law.uses_roughness());
+        Ok(WallLaw::new(Parts {
+            normal,
+            tangential,
+            surface_curvature: numbers.surface_curvature,
+            scatter: self.scatter()?,
+            validity: Validity::ROUGHNESS_EXTRAPOLATED.when(roughness.extrapolated && uses_roughness),
+            about: About {
+                pair,
+                roughness: roughness.height,
+                roughness_factor: roughness.factor,
+                spacing: numbers.spacing,
+            },
+        }))
     }
 
     fn numbers(&self) -> Result<Numbers, SpecError> {
@@ -156,7 +158,7 @@ impl LawSpec {
         Ok(())
     }
 
-    fn normal_law(&self, spec: &NormalSpec, pair: Option<&Pair>, numbers: &Numbers) -> Result<NormalLaw, SpecError> {
+    fn normal_law(&self, spec: &NormalSpec, pair: Option<&Pair>, numbers: &Numbers) -> Result<Normal, SpecError> {
         let damping = [Loss::AdhesionDamping, Loss::HertzDamping];
         let given = |losses: &[Loss]| {
             let coefficients = [numbers.adhesion_damping, numbers.hertz_damping];
@@ -170,7 +172,7 @@ impl LawSpec {
             NormalSpec::Named(NormalKind::ThorntonNing) => vec![Loss::PlasticThorntonNing, Loss::AdhesionJkr],
             NormalSpec::Named(NormalKind::Tabor) => vec![Loss::PlasticTabor],
             NormalSpec::Named(kind @ (NormalKind::Constant | NormalKind::ByAngle)) => {
-                return self.table(*kind).map(NormalLaw::Table);
+                return self.table(*kind).map(Normal::Curve);
             }
             NormalSpec::Named(NormalKind::Resolved) => {
                 let pair = pair.ok_or_else(|| {
@@ -181,11 +183,12 @@ impl LawSpec {
                     hertz: numbers.hertz_damping.unwrap_or(0.0),
                 };
                 let mode = self.adhesion.as_ref().map(|a| a.value).unwrap_or_default();
-                return Ok(NormalLaw::Resolved(Resolved::new(work(pair, numbers)?, damping, mode)));
+                let work = Work::of(&Inputs::new(Some(pair), numbers.roughness_factor, &|_| None))?;
+                return Ok(Normal::Compiled(NormalLaw::Resolved(Resolved::new(work, damping, mode))));
             }
         };
         super::normal::check(&losses)?;
-        self.ledger(&losses, pair, numbers).map(NormalLaw::Ledger)
+        self.ledger(&losses, pair, numbers).map(|ledger| Normal::Compiled(NormalLaw::Ledger(ledger)))
     }
 
     fn table(&self, kind: NormalKind) -> Result<Curve, SpecError> {
@@ -197,64 +200,30 @@ impl LawSpec {
     }
 
     fn ledger(&self, losses: &[Loss], pair: Option<&Pair>, numbers: &Numbers) -> Result<Ledger, SpecError> {
-        let mut ledger = Ledger::lossless();
-        let bare_tabor = losses == [Loss::PlasticTabor];
-        let wanted = || need("a sphere and a surface", "sphere and surface, by name or with their properties");
-        for loss in losses {
-            if bare_tabor {
-                ledger.plastic = Plastic::Tabor(self.tabor()?);
-                break;
-            }
-            let pair = pair.ok_or_else(wanted)?;
-            match loss {
-                Loss::AdhesionWork => {
-                    ledger.adhesion = Adhesion::Work;
-                    ledger.work = work(pair, numbers)?;
-                }
-                Loss::AdhesionDamping => {
-                    ledger.work = work(pair, numbers)?;
-                    ledger.damping.adhesion = numbers
-                        .adhesion_damping
-                        .ok_or_else(|| need("a coefficient for adhesion-damping", "adhesion_damping, in s/m"))?;
-                }
-                Loss::HertzDamping => {
-                    ledger.damping.hertz = numbers
-                        .hertz_damping
-                        .ok_or_else(|| need("a coefficient for hertz-damping", "hertz_damping, in s/m"))?
-                }
-                Loss::AdhesionJkr => {
-                    self.refuse_roughness_beside_jkr(losses)?;
-                    ledger.adhesion =
-                        Adhesion::Jkr(Jkr::new(pair.effective_modulus()?, pair.work_of_adhesion()?, pair.density()?));
-                }
-                Loss::PlasticKadomtsev => {
-                    ledger.plastic = Plastic::Kadomtsev(Kadomtsev::new(
-                        pair.effective_modulus()?,
-                        pair.plastic_constant()?,
-                        pair.density()?,
-                    ));
-                }
-                Loss::PlasticThorntonNing => {
-                    let given = checked(
-                        &self.limiting_pressure,
-                        "limiting_pressure",
-                        |p| p.0,
-                        positive,
-                        "a positive pressure is wanted",
-                    )?;
-                    let pressure =
-                        given.map_or_else(|| pair.plastic_constant().map(|k| 2.0 * k * PRESSURE_OVER_STRENGTH), Ok)?;
-                    ledger.plastic =
-                        Plastic::ThorntonNing(ThorntonNing::new(pair.effective_modulus()?, pressure, pair.density()?));
-                }
-                Loss::PlasticTabor => ledger.plastic = Plastic::Tabor(self.tabor()?),
-                Loss::PlasticBons => {
-                    let strength = 2.0 * pair.plastic_constant()?;
-                    ledger.plastic = Plastic::Bons(Bons::new(pair.effective_modulus()?, strength, pair.density()?));
-                }
-            }
+        if losses.contains(&Loss::AdhesionJkr) {
+            self.refuse_roughness_beside_jkr(losses)?;
         }
-        Ok(ledger)
+        let given = self.loss_keys()?;
+        let number = |key: &str| match key {
+            "adhesion_damping" => numbers.adhesion_damping,
+            "hertz_damping" => numbers.hertz_damping,
+            _ => given.iter().find(|(name, _)| *name == key).and_then(|(_, value)| *value),
+        };
+        let inputs = Inputs::new(pair, numbers.roughness_factor, &number);
+        let terms = losses.iter().map(|loss| loss.compile(&inputs)).collect::<Result<Vec<_>, _>>()?;
+        Ledger::new(terms).map_err(|TwoOfAKind(first, second)| super::normal::two_of_a_kind(first, second))
+    }
+
+    /// Numbers that single losses read.
+    fn loss_keys(&self) -> Result<[(&'static str, Option<f64>); 3], SpecError> {
+        let pressure = "a positive pressure is wanted";
+        let index = "Meyer's index lies between 0.5 and 3 (2 without, 2.5 with full work hardening)";
+        let speed = "a positive speed is wanted";
+        Ok([
+            ("limiting_pressure", checked(&self.limiting_pressure, "limiting_pressure", |p| p.0, positive, pressure)?),
+            ("yield_velocity", checked(&self.yield_velocity, "yield_velocity", |v| v.0, positive, speed)?),
+            ("meyer_index", checked(&self.meyer_index, "meyer_index", |n| n.0, |n| n > 0.5 && n < 3.0, index)?),
+        ])
     }
 
     fn refuse_roughness_beside_jkr(&self, losses: &[Loss]) -> Result<(), SpecError> {
@@ -268,33 +237,4 @@ impl LawSpec {
             _ => Ok(()),
         }
     }
-
-    fn tabor(&self) -> Result<Tabor, SpecError> {
-        let yield_velocity =
-            checked(&self.yield_velocity, "yield_velocity", |v| v.0, positive, "a positive speed is wanted")?
-                .ok_or_else(|| need("Tabor's fitted yield velocity", "yield_velocity = \"0.09 m/s\""))?;
-        let meyer_index = checked(
-            &self.meyer_index,
-            "meyer_index",
-            |n| n.0,
-            |n| n > 0.5 && n < 3.0,
-            "Meyer's index lies between 0.5 and 3 (2 without, 2.5 with full work hardening)",
-        )?
-        .ok_or_else(|| need("Meyer's index", "meyer_index = 2.29"))?;
-        Ok(Tabor { yield_velocity, meyer_index })
-    }
 }
-
-fn work(pair: &Pair, numbers: &Numbers) -> Result<Work, SpecError> {
-    Ok(Work::new(pair.stiffness()?, pair.work_of_adhesion()?, numbers.roughness_factor, pair.density()?))
-}
-
-fn uses_roughness(normal: &NormalLaw) -> bool {
-    match normal {
-        NormalLaw::Ledger(ledger) => ledger.uses_work(),
-        NormalLaw::Table(_) => false,
-        NormalLaw::Resolved(_) => true,
-    }
-}
-
-const _: () = assert!(plastic::BETA <= 0.6);

@@ -34,8 +34,8 @@ values::names! {
 impl std::str::FromStr for Loss {
     type Err = SpecError;
     fn from_str(text: &str) -> Result<Self, SpecError> {
-        let names = Self::ALL.map(Self::name);
-        Self::ALL.into_iter().find(|l| l.name() == text).ok_or_else(|| values::unknown_name("loss", text, &names))
+        let names: Vec<&str> = Self::ALL.iter().map(|l| l.name()).collect();
+        Self::ALL.iter().copied().find(|l| l.name() == text).ok_or_else(|| values::unknown_name("loss", text, &names))
     }
 }
 
@@ -91,14 +91,18 @@ pub(super) fn check(losses: &[Loss]) -> Result<(), SpecError> {
     }
     for (i, loss) in losses.iter().enumerate() {
         if let Some(other) = losses.iter().take(i).find(|o| o.kind() == loss.kind()) {
-            let both = if other == loss {
-                format!("'{}' twice", loss.name())
-            } else {
-                format!("both '{}' and '{}'", other.name(), loss.name())
-            };
-            return Err(SpecError::new(format!("{both}: the same energy would be counted twice"))
-                .help(format!("keep one {}", loss.kind())));
+            return Err(two_of_a_kind(*other, *loss));
         }
     }
     Ok(())
+}
+
+/// Two losses that would take the same energy.
+pub(super) fn two_of_a_kind(first: Loss, second: Loss) -> SpecError {
+    let both = if first == second {
+        format!("'{}' twice", first.name())
+    } else {
+        format!("both '{}' and '{}'", first.name(), second.name())
+    };
+    SpecError::new(format!("{both}: the same energy would be counted twice")).help(format!("keep one {}", first.kind()))
 }

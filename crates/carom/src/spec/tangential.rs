@@ -5,10 +5,10 @@ use super::curve::Which;
 use super::{LawSpec, TangentialKind};
 use crate::error::SpecError;
 use crate::pair::Pair;
-use crate::tangential::{Tangential, micro_slip::MicroSlip};
+use crate::wall::Along;
 
 impl LawSpec {
-    pub(super) fn tangential_law(&self, pair: Option<&Pair>) -> Result<Tangential, SpecError> {
+    pub(super) fn tangential_law(&self, pair: Option<&Pair>) -> Result<Along, SpecError> {
         let kind = self.tangential.as_ref().map(|t| t.value).unwrap_or_else(|| match &self.tangential_restitution {
             None => TangentialKind::Rolling,
             Some(at) if at.value.is_constant() => TangentialKind::Constant,
@@ -32,7 +32,7 @@ impl LawSpec {
             .at(at.span.clone()));
         }
         Ok(match kind {
-            TangentialKind::Rolling => Tangential::Friction { friction: friction()?, beta: 0.0 },
+            TangentialKind::Rolling => Along::Friction { friction: friction()?, beta: 0.0 },
             TangentialKind::Walton => {
                 let beta = checked(
                     &self.walton_beta,
@@ -42,7 +42,7 @@ impl LawSpec {
                     "it lies between 0 (rolling) and 1 (slip reversed)",
                 )?
                 .ok_or_else(|| need("Walton's beta", "walton_beta = 0.4, say").at(place.clone()))?;
-                Tangential::Friction { friction: friction()?, beta }
+                Along::Friction { friction: friction()?, beta }
             }
             TangentialKind::MicroSlip => {
                 let friction = friction()?;
@@ -50,7 +50,7 @@ impl LawSpec {
                     .ok_or_else(|| need("a sphere and a surface for micro-slip", "both, with their E and nu"))
                     .and_then(Pair::stiffness_ratio)
                     .map_err(|e| e.at(place))?;
-                Tangential::MicroSlip(Box::new(MicroSlip::new(friction, ratio)))
+                Along::MicroSlip { friction, stiffness_ratio: ratio }
             }
             TangentialKind::Constant | TangentialKind::ByAngle => {
                 let at = self
@@ -58,7 +58,7 @@ impl LawSpec {
                     .as_ref()
                     .ok_or_else(|| need("a tangential restitution", "tangential_restitution = 0.9, say").at(place))?;
                 form_fits(kind == TangentialKind::Constant, at, "tangential")?;
-                Tangential::Restitution(at.value.resolve(Which::Tangential).map_err(|e| e.at(at.span.clone()))?)
+                Along::Curve(at.value.resolve(Which::Tangential).map_err(|e| e.at(at.span.clone()))?)
             }
         })
     }

@@ -1,6 +1,6 @@
 use super::*;
 use crate::material::Library;
-use crate::wall::NormalLaw;
+use crate::normal::NormalLaw;
 
 const PAIR: &str = "sphere = \"copper\"\nsurface = \"aluminium\"\nfriction = 0.2\n";
 
@@ -148,10 +148,8 @@ fn named_laws_and_their_lists_are_the_same() {
     let library = Library::builtin();
     let compile = |rest: &str| {
         let text = format!("{PAIR}{rest}");
-        parse_law(&text)
-            .and_then(|l| l.compile(library))
-            .unwrap_or_else(|e| panic!("{}", e.located("law", &text)))
-            .normal
+        let law = parse_law(&text).and_then(|l| l.compile(library));
+        *law.unwrap_or_else(|e| panic!("{}", e.located("law", &text))).normal()
     };
     assert_eq!(compile("normal = \"ea\"\n"), compile("normal = [\"adhesion-work\"]\n"));
     assert_eq!(
@@ -187,7 +185,7 @@ fn roughness_above_its_calibration_is_flagged() {
     let library = Library::builtin();
     let flags = |rest: &str| {
         let law = parse_law(&format!("{PAIR}{rest}")).and_then(|l| l.compile(library)).expect("a good law");
-        law.validity.codes().collect::<Vec<_>>()
+        law.kernel().validity.codes().collect::<Vec<_>>()
     };
     assert_eq!(flags("normal = \"ea\"\nroughness = \"1 nm\"\n"), ["roughness-extrapolated"]);
     assert!(flags("normal = \"ea\"\nroughness = \"0.5 nm\"\n").is_empty());
