@@ -1,7 +1,7 @@
 //! A wall law: materials and text above, a kernel of plain numbers below. An impact in, an outcome out.
 
 use crate::impact::{Impact, ImpactError, Outcome};
-use crate::kernel::{Kernel, Limits, Tables};
+use crate::kernel::{Judged, Kernel, Limits, Tables};
 use crate::math::{BEST, Fma, Fused};
 use crate::normal::empirical::{Curve, Piece};
 use crate::normal::{NormalLaw, Size};
@@ -11,7 +11,10 @@ use crate::tangential::Tangential;
 use crate::tangential::micro_slip::Shape;
 use crate::validity::Validity;
 
+mod above_yield;
 mod figures;
+
+pub use above_yield::AboveYield;
 
 /// A wall law, compiled from a [`crate::spec::LawSpec`]. Pure: no state, no allocation per impact, no panics; usable from
 /// many threads.
@@ -55,8 +58,14 @@ pub(crate) enum Normal {
 
 /// The tangential law as a part: with its pieces or its shape.
 pub(crate) enum Along {
-    Friction { friction: f64, beta: f64 },
-    MicroSlip { friction: f64, stiffness_ratio: f64 },
+    Friction {
+        friction: f64,
+        beta: f64,
+    },
+    MicroSlip {
+        friction: f64,
+        stiffness_ratio: f64,
+    },
     Curve(Curve),
     #[expect(dead_code, reason = "the text form asks for friction until its builder does not")]
     NotGiven,
@@ -80,9 +89,8 @@ impl WallLaw {
         };
         let pair = parts.about.pair.as_ref();
         let density = pair.and_then(|p| p.density().ok()).unwrap_or(1000.0);
-        let stiffness = pair.and_then(|p| p.stiffness().ok());
-        let plastic_constant = pair.and_then(|p| p.plastic_constant().ok());
-        let limits = Limits::new(&normal, stiffness, plastic_constant, density);
+        let roughness_factor = parts.about.roughness_factor;
+        let limits = Limits::new(&Judged { normal: &normal, pair, roughness_factor, density });
         let (surface_curvature, validity) = (parts.surface_curvature, parts.validity);
         Self {
             kernel: Kernel { normal, tangential, density, surface_curvature, limits, validity, scatter: parts.scatter },

@@ -41,7 +41,7 @@ impl Kernel {
         judge::approach(v_n, incident)?;
         let share = 1.0 / incident;
         let response = self.normal.respond(f, tables.pieces, v_n, tangent2, &size);
-        let validity = self.judge(f, v_n, &size, &response);
+        let validity = self.judge(f, v_n, tangent2, &size, &response);
         let normal_share = v_n * v_n * share;
         let energy = normal_energy(&response, normal_share);
         if response.e <= 0.0 {
