@@ -3,7 +3,8 @@
 use crate::impact::{ImpactIn, ImpactOut, LEAST_IN, LEAST_OUT};
 use crate::law::Law;
 use crate::status::{Status, fail, guard};
-use carom::math::{BEST, Fma, Fused};
+use carom::instructions::{Work, run_scalar};
+use carom::math::Fma;
 use carom::normal::NormalLaw;
 use carom::{Fate, Impact, ImpactError};
 use std::mem::size_of;
@@ -196,28 +197,26 @@ unsafe fn one(
     out: *mut ImpactOut,
     out_size: usize,
 ) -> Result<(), ImpactError> {
-    #[cfg(target_arch = "x86_64")]
-    if std::arch::is_x86_feature_detected!("fma") {
-        // SAFETY: the processor has the feature the function is compiled for, as was just asked; the rest as the caller promises.
-        return unsafe { one_fma(law, impact, in_size, out, out_size) };
-    }
-    // SAFETY: as the caller promises.
-    unsafe { one_inlined(BEST, law, impact, in_size, out, out_size) }
+    run_scalar(One { law, impact, in_size, out, out_size })
 }
 
-/// # Safety
-/// As [`one`].
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "fma")]
-unsafe fn one_fma(
-    law: &Law,
+/// An answer that goes straight to the caller's struct. Only [`one`] makes it, whose caller promises that the pointers are good.
+struct One<'a> {
+    law: &'a Law,
     impact: *const ImpactIn,
     in_size: usize,
     out: *mut ImpactOut,
     out_size: usize,
-) -> Result<(), ImpactError> {
-    // SAFETY: as the caller promises.
-    unsafe { one_inlined(Fused, law, impact, in_size, out, out_size) }
+}
+
+impl Work for One<'_> {
+    type Output = Result<(), ImpactError>;
+
+    #[inline(always)]
+    fn run<F: Fma, const LANES: usize>(self, f: F) -> Self::Output {
+        // SAFETY: as the caller of `one` promises.
+        unsafe { one_inlined(f, self.law, self.impact, self.in_size, self.out, self.out_size) }
+    }
 }
 
 /// # Safety

@@ -21,6 +21,8 @@ use crate::integrate::{Control, Derivative, Motion, Rates, growth, step};
 use crate::lanes::{bits, mask, take_lowest};
 use crate::record::{End, Fate, Sink};
 use crate::vector::Vec3;
+use carom::instructions::{InstructionSet, Work};
+use carom::math::Fma;
 use crew::{Crew, motion_of};
 use lane::Lane;
 pub use removal::Removal;
@@ -67,7 +69,8 @@ impl Particle {
 
     /// Mass of all it stands for, kg.
     pub fn mass(&self) -> f64 {
-        self.weight * self.density * std::f64::consts::PI / 6.0 * self.diameter.powi(3)
+        // products: the bits of `powi` depend on the platform
+        self.weight * self.density * std::f64::consts::PI / 6.0 * (self.diameter * self.diameter * self.diameter)
     }
 }
 
@@ -123,40 +126,38 @@ impl<const W: usize, D: Domain> Derivative<W> for Acting<'_, W, D> {
     }
 }
 
+/// A call of [`Tracker::run`], for each set of instructions. The lanes fill two vectors: one fills the waits of the other's chain of
+/// dependent operations.
+struct Flight<'a, D> {
+    tracker: &'a Tracker<'a, D>,
+    particles: &'a mut dyn Iterator<Item = Particle>,
+    sink: &'a mut dyn Sink,
+}
+
+impl<D: Domain> Work for Flight<'_, D> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<F: Fma, const LANES: usize>(self, _: F) {
+        self.tracker.run_lanes::<LANES>(self.particles, self.sink);
+    }
+}
+
 impl<D: Domain> Tracker<'_, D> {
     /// Tracks particles to their ends, with the widest instructions the machine has. The sink hears of each particle's
     /// events in order; events of different particles interleave.
     pub fn run(&self, particles: &mut dyn Iterator<Item = Particle>, sink: &mut dyn Sink) {
-        #[cfg(target_arch = "x86_64")]
-        {
-            if std::arch::is_x86_feature_detected!("avx512f") && std::arch::is_x86_feature_detected!("avx512dq") {
-                // SAFETY: the instructions were just found to be there.
-                return unsafe { self.run_avx512(particles, sink) };
-            }
-            if std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma") {
-                // SAFETY: the instructions were just found to be there.
-                return unsafe { self.run_avx2(particles, sink) };
-            }
-        }
-        self.run_lanes::<1>(particles, sink);
+        self.run_on(InstructionSet::best(), particles, sink);
+    }
+
+    /// As [`Tracker::run`], with the same bits, on a given set of instructions.
+    pub fn run_on(&self, set: InstructionSet, particles: &mut dyn Iterator<Item = Particle>, sink: &mut dyn Sink) {
+        set.run(Flight { tracker: self, particles, sink });
     }
 
     /// The same bits with one lane and no special instructions.
     pub fn run_plain(&self, particles: &mut dyn Iterator<Item = Particle>, sink: &mut dyn Sink) {
-        self.run_lanes::<1>(particles, sink);
-    }
-
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx512bw,avx2,fma,bmi1,bmi2")]
-    fn run_avx512(&self, particles: &mut dyn Iterator<Item = Particle>, sink: &mut dyn Sink) {
-        // two vectors of eight: one fills the waits of the other's chain of dependent operations
-        self.run_lanes::<16>(particles, sink);
-    }
-
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx2,fma,bmi1,bmi2")]
-    fn run_avx2(&self, particles: &mut dyn Iterator<Item = Particle>, sink: &mut dyn Sink) {
-        self.run_lanes::<8>(particles, sink);
+        self.run_on(InstructionSet::Portable, particles, sink);
     }
 
     #[inline(always)]

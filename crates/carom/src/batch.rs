@@ -18,6 +18,8 @@
 //! # Ok::<(), carom::SpecError>(())
 //! ```
 
+pub use crate::instructions::InstructionSet;
+
 use crate::impact::{Energy, Fate, Impact, ImpactError, Outcome};
 use crate::kernel::columns;
 use crate::wall::WallLaw;
@@ -78,49 +80,13 @@ pub enum BatchError {
     },
 }
 
-/// A way to run the loops of a batch. All give the same bits; only the speed differs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum InstructionSet {
-    /// Eight lanes (x86-64 with AVX-512 F, DQ, VL and FMA).
-    Avx512,
-    /// Four lanes (x86-64 with AVX2 and FMA).
-    Avx2,
-    /// What the crate was compiled for.
-    Portable,
-}
-
-impl InstructionSet {
-    /// Those this machine has, best first; the first one is what [`WallLaw::impact_batch`] uses.
-    pub fn available() -> impl Iterator<Item = Self> {
-        [Self::Avx512, Self::Avx2, Self::Portable].into_iter().filter(|set| set.is_here())
-    }
-
-    fn is_here(self) -> bool {
-        #[cfg(target_arch = "x86_64")]
-        {
-            use std::arch::is_x86_feature_detected as has;
-            let fused = has!("avx2") && has!("fma");
-            match self {
-                Self::Avx512 => fused && has!("avx512f") && has!("avx512dq") && has!("avx512vl"),
-                Self::Avx2 => fused,
-                Self::Portable => true,
-            }
-        }
-        #[cfg(not(target_arch = "x86_64"))]
-        {
-            self == Self::Portable
-        }
-    }
-}
-
 impl WallLaw {
     /// Many impacts at once; see the [module](crate::batch).
     ///
     /// # Errors
     /// Columns of different lengths; rows that are no impact (all others are done, and the first bad one is named).
     pub fn impact_batch(&self, incidence: &Incidence, rebound: &mut Rebound) -> Result<(), BatchError> {
-        let best = InstructionSet::available().next().unwrap_or(InstructionSet::Portable);
-        self.impact_batch_on(best, incidence, rebound)
+        self.impact_batch_on(InstructionSet::best(), incidence, rebound)
     }
 
     /// As [`WallLaw::impact_batch`], on a given instruction set (for tests and benchmarks); one this machine lacks runs as
@@ -138,7 +104,6 @@ impl WallLaw {
         if self.scatter().is_some() {
             return self.by_row(incidence, |_| MIDDLE, rebound);
         }
-        let set = if set.is_here() { set } else { InstructionSet::Portable };
         let all_fine = columns::run(set, self.kernel(), &self.tables(), incidence, rebound);
         if let Some(energy) = rebound.energy.as_deref_mut() {
             for (i, out) in energy.iter_mut().enumerate() {

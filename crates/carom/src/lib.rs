@@ -25,6 +25,7 @@
 pub mod batch;
 pub mod error;
 pub mod impact;
+pub mod instructions;
 pub mod kernel;
 pub mod material;
 pub mod math;

@@ -40,7 +40,8 @@ mod motion;
 
 pub use history::{Moment, Scales};
 
-use crate::math::{self, BEST, Fma, Fused};
+use crate::instructions::{self, InstructionSet};
+use crate::math::{self, Fma};
 use crate::normal::adhesion::{AdhesionDamping, Work};
 use crate::normal::damping::HertzDamping;
 use crate::normal::{Losses, NormalResponse, Size, Term, Window};
@@ -122,12 +123,7 @@ impl Resolved {
     /// Not inlined: the series need a large stack frame, which the other laws should not pay for.
     #[inline(never)]
     pub(crate) fn respond(&self, v: f64, size: &Size) -> NormalResponse {
-        #[cfg(all(feature = "std", target_arch = "x86_64"))]
-        if std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma") {
-            // SAFETY: the processor has the features the function is compiled for, as was just asked.
-            return unsafe { respond_avx2(self, v, size) };
-        }
-        self.respond_body(BEST, v, size)
+        InstructionSet::best().run(Respond { law: self, v, size })
     }
 
     #[inline(always)]
@@ -175,10 +171,19 @@ impl Resolved {
     }
 }
 
-#[cfg(all(feature = "std", target_arch = "x86_64"))]
-#[target_feature(enable = "avx2,fma")]
-fn respond_avx2(law: &Resolved, v: f64, size: &Size) -> NormalResponse {
-    law.respond_body(Fused, v, size)
+struct Respond<'a> {
+    law: &'a Resolved,
+    v: f64,
+    size: &'a Size,
+}
+
+impl instructions::Work for Respond<'_> {
+    type Output = NormalResponse;
+
+    #[inline(always)]
+    fn run<F: Fma, const LANES: usize>(self, f: F) -> NormalResponse {
+        self.law.respond_body(f, self.v, self.size)
+    }
 }
 
 /// Energy fractions from the work done along the way; e from what they leave.

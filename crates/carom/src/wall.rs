@@ -1,8 +1,9 @@
 //! A wall law: materials and text above, a kernel of plain numbers below. An impact in, an outcome out.
 
 use crate::impact::{Impact, ImpactError, Outcome};
+use crate::instructions::{Work, run_scalar};
 use crate::kernel::{Judged, Kernel, Limits, Tables};
-use crate::math::{BEST, Fma, Fused};
+use crate::math::{BEST, Fma};
 use crate::normal::empirical::{Curve, Piece};
 use crate::normal::{NormalLaw, Size};
 use crate::pair::Pair;
@@ -169,16 +170,11 @@ impl WallLaw {
     /// ```
     #[inline]
     pub fn impact(&self, impact: &Impact) -> Result<Outcome, ImpactError> {
-        #[cfg(all(feature = "std", target_arch = "x86_64"))]
-        if std::arch::is_x86_feature_detected!("fma") {
-            // SAFETY: the processor has the features the function is compiled for, as was just asked.
-            return unsafe { impact_fma(self, impact) };
-        }
-        self.impact_on(BEST, impact)
+        run_scalar(OneImpact { law: self, impact })
     }
 
     /// As [`WallLaw::impact`], compiled into the caller for the caller's own instruction set: the same bits, and the answer need not pass
-    /// through memory. With [`Fused`] it is fast only where the caller is compiled with fused multiply-add
+    /// through memory. With [`crate::math::Fused`] it is fast only where the caller is compiled with fused multiply-add
     /// (`#[target_feature(enable = "fma")]`).
     ///
     /// # Errors
@@ -190,8 +186,16 @@ impl WallLaw {
     }
 }
 
-#[cfg(all(feature = "std", target_arch = "x86_64"))]
-#[target_feature(enable = "fma")]
-fn impact_fma(law: &WallLaw, impact: &Impact) -> Result<Outcome, ImpactError> {
-    law.impact_on(Fused, impact)
+struct OneImpact<'a> {
+    law: &'a WallLaw,
+    impact: &'a Impact,
+}
+
+impl Work for OneImpact<'_> {
+    type Output = Result<Outcome, ImpactError>;
+
+    #[inline(always)]
+    fn run<F: Fma, const LANES: usize>(self, f: F) -> Self::Output {
+        self.law.impact_on(f, self.impact)
+    }
 }

@@ -5,8 +5,9 @@
 
 use super::impact::{NO_SLIP, Rubbed};
 use super::{Kernel, Tables, judge};
-use crate::batch::{Incidence, InstructionSet, Rebound};
-use crate::math::{BEST, Fma, Fused, sqrt};
+use crate::batch::{Incidence, Rebound};
+use crate::instructions::{InstructionSet, Work};
+use crate::math::{Fma, Plain, sqrt, watched};
 use crate::normal::{Account, Ledger, Loops, Losses, Mechanism, NormalLaw, NormalResponse, Size};
 use crate::tangential::{Coulomb, FrictionLaw, Shaped, Tangential, constant};
 
@@ -64,31 +65,50 @@ impl Sizing for Curved {
 
 /// All rows, whose columns have one length; whether every one of them was an impact.
 pub(crate) fn run(set: InstructionSet, kernel: &Kernel, tables: &Tables, rows: &Incidence, out: &mut Rebound) -> bool {
-    match set {
-        #[cfg(all(feature = "std", target_arch = "x86_64"))]
-        // SAFETY: an instruction set other than the portable one is only named where the processor has it.
-        InstructionSet::Avx512 => unsafe { avx512(kernel, tables, rows, out) },
-        #[cfg(all(feature = "std", target_arch = "x86_64"))]
-        // SAFETY: likewise.
-        InstructionSet::Avx2 => unsafe { avx2(kernel, tables, rows, out) },
-        _ => all_rows(BEST, kernel, tables, rows, out),
+    set.run(AllRows { kernel, tables, rows, out })
+}
+
+struct AllRows<'a, 'b> {
+    kernel: &'a Kernel,
+    tables: &'a Tables<'a>,
+    rows: &'a Incidence<'a>,
+    out: &'a mut Rebound<'b>,
+}
+
+impl Work for AllRows<'_, '_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run<F: Fma, const LANES: usize>(self, f: F) -> bool {
+        all_rows(self.kernel, self.tables, self.rows, self.out, |kernel, tables, rows, out, between| {
+            chunk(f, kernel, tables, rows, out, between)
+        })
+    }
+
+    /// Without fused multiply-add: branch-free emulation, and the exact one for the rare chunk where that does not suffice.
+    #[inline(always)]
+    fn run_portable(self) -> bool {
+        all_rows(self.kernel, self.tables, self.rows, self.out, |kernel, tables, rows, out, between| {
+            let (fine, exact) = watched(|f| chunk(f, kernel, tables, rows, out, between));
+            if exact { fine } else { chunk_exactly(kernel, tables, rows, out, between) }
+        })
     }
 }
 
-#[cfg(all(feature = "std", target_arch = "x86_64"))]
-#[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
-fn avx512(kernel: &Kernel, tables: &Tables, rows: &Incidence, out: &mut Rebound) -> bool {
-    all_rows(Fused, kernel, tables, rows, out)
-}
-
-#[cfg(all(feature = "std", target_arch = "x86_64"))]
-#[target_feature(enable = "avx2,fma")]
-fn avx2(kernel: &Kernel, tables: &Tables, rows: &Incidence, out: &mut Rebound) -> bool {
-    all_rows(Fused, kernel, tables, rows, out)
+#[cold]
+#[inline(never)]
+fn chunk_exactly(kernel: &Kernel, tables: &Tables, rows: &Rows, out: &mut Out, between: &mut Between) -> bool {
+    chunk(Plain, kernel, tables, rows, out, between)
 }
 
 #[inline(always)]
-fn all_rows<F: Fma>(f: F, kernel: &Kernel, tables: &Tables, rows: &Incidence, out: &mut Rebound) -> bool {
+fn all_rows(
+    kernel: &Kernel,
+    tables: &Tables,
+    rows: &Incidence,
+    out: &mut Rebound,
+    one_chunk: impl Fn(&Kernel, &Tables, &Rows, &mut Out, &mut Between) -> bool,
+) -> bool {
     let mut between = Between { bulk: [0.0; CHUNK], left: [0.0; CHUNK], friction_share: [1.0; CHUNK] };
     let (mut scratch_e, mut scratch_ratio) = ([0.0; CHUNK], [0.0; CHUNK]);
     let wants_more = out.restitution.is_some() || out.impulse_ratio.is_some();
@@ -112,7 +132,7 @@ fn all_rows<F: Fma>(f: F, kernel: &Kernel, tables: &Tables, rows: &Incidence, ou
             continue;
         };
         let more = wants_more.then_some((&mut scratch_e, &mut scratch_ratio));
-        all_fine &= chunk(f, kernel, tables, &rows, &mut Out { normal, tangential, spin, more }, &mut between);
+        all_fine &= one_chunk(kernel, tables, &rows, &mut Out { normal, tangential, spin, more }, &mut between);
         write_more(out, range, &scratch_e, &scratch_ratio);
     }
     if normal_end.is_empty() {
@@ -133,7 +153,7 @@ fn all_rows<F: Fma>(f: F, kernel: &Kernel, tables: &Tables, rows: &Incidence, ou
     let (mut n, mut t, mut w) = ([0.0; CHUNK], [0.0; CHUNK], [0.0; CHUNK]);
     let more = wants_more.then_some((&mut scratch_e, &mut scratch_ratio));
     let mut last_out = Out { normal: &mut n, tangential: &mut t, spin: &mut w, more };
-    all_fine &= chunk(f, kernel, tables, &last, &mut last_out, &mut between);
+    all_fine &= one_chunk(kernel, tables, &last, &mut last_out, &mut between);
     let range = whole * CHUNK..rows.normal.len();
     out.normal[range.clone()].copy_from_slice(&n[..normal_end.len()]);
     out.tangential[range.clone()].copy_from_slice(&t[..normal_end.len()]);
