@@ -12,6 +12,8 @@ use std::fmt;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct AboveYield {
+    /// Normal speed of the impact, m/s.
+    pub speed: f64,
     /// Yield velocity, m/s: that of `eap` for the same pair.
     pub yield_velocity: f64,
     /// The strength it follows from.
@@ -44,6 +46,7 @@ impl fmt::Display for AboveYield {
         )?;
         match self.capture_velocity {
             _ if self.restitution > 0.0 => write!(f, ", and eap would give e = {}", rounded(self.restitution)),
+            Some(v) if v < self.speed => f.write_str(", and eap leaves nothing either"),
             Some(v) => write!(f, ", and eap would capture up to {} m/s", rounded(v)),
             None => f.write_str(", and eap would capture at every speed"),
         }
@@ -86,7 +89,14 @@ impl WallLaw {
             let material = if body == Body::Sphere { pair.sphere() } else { pair.surface() };
             Some(material.name.clone())
         });
-        Ok(Some(AboveYield { yield_velocity: sqrt(yield_squared), strength, material, restitution, capture_velocity }))
+        Ok(Some(AboveYield {
+            speed,
+            yield_velocity: sqrt(yield_squared),
+            strength,
+            material,
+            restitution,
+            capture_velocity,
+        }))
     }
 
     /// The plastic loss that a law of elastic bodies lacks, where the strength of its materials is known.
