@@ -11,10 +11,11 @@ mod removal;
 mod text;
 mod wall;
 
+pub(crate) use files::Fingerprint;
 pub use injection::Injected;
 
 use crate::deposition::{Bins, Region};
-use crate::domain::{Analytic, Wall};
+use crate::domain::{AnyDomain, Wall};
 use crate::dynamics::Dynamics;
 use crate::injection::Start;
 use crate::tables::TableFormat;
@@ -37,7 +38,7 @@ pub struct Case {
     /// The file it came from.
     pub name: PathBuf,
     /// Flow and walls.
-    pub domain: Analytic,
+    pub domain: AnyDomain,
     /// What acts on the spheres.
     pub dynamics: Dynamics,
     /// What each wall does.
@@ -90,6 +91,7 @@ impl Case {
         if injections.is_empty() {
             return Err(SpecError::new("the case injects nothing").help("add an [[injection]]"));
         }
+        countable(&injections)?;
         injection::distinct(read.injection.iter().filter_map(|i| i.value.name.as_ref()), "injection")?;
         injection::distinct(read.wall.iter().map(|w| &w.value.name), "wall")?;
         let walls = read.wall.iter().map(|w| wall::read(w, &files)).collect::<Result<Vec<_>, _>>()?;
@@ -115,7 +117,7 @@ impl Case {
         Ok(Self {
             title: read.title.unwrap_or_default(),
             name: name.to_owned(),
-            domain: Analytic::new(flow, walls),
+            domain: AnyDomain::new(flow, walls),
             dynamics,
             behaviors,
             injections,
@@ -137,24 +139,41 @@ impl Case {
     }
 
     /// The tracker of this case.
-    pub fn tracker(&self) -> Tracker<'_, Analytic> {
+    pub fn tracker(&self) -> Tracker<'_> {
         Tracker { domain: &self.domain, dynamics: &self.dynamics, behaviors: &self.behaviors, settings: self.settings }
     }
 
     /// The particle of a number below [`Case::count`].
     pub fn particle(&self, number: u64) -> Option<Particle> {
-        use crate::domain::Domain;
         let mut first = 0;
         for (index, injected) in self.injections.iter().enumerate() {
             let count = injected.injection.count();
             if number < first + count {
-                let start = injected.injection.particle(number - first, |x| self.domain.fluid(x).velocity);
+                let fluid = |time, x| self.domain.fluid(time, x).velocity;
+                let start = injected.injection.particle(number - first, fluid);
                 return Some(Particle::new(number, index, &start));
             }
             first += count;
         }
         None
     }
+}
+
+/// Particles are counted one by one, and JSON's readers keep no more digits.
+const MOST_PARTICLES: u64 = 1 << 53;
+
+fn countable(injections: &[Injected]) -> Result<(), SpecError> {
+    let mut all = 0u64;
+    for injected in injections {
+        all = all.saturating_add(injected.injection.count());
+        if all > MOST_PARTICLES {
+            let message = format!("{} makes {} particles or more in all", injected.name, MOST_PARTICLES + 1);
+            let help =
+                "at most 2^53 (9007199254740992) can be counted: give fewer, each with a weight (mass and parcels)";
+            return Err(SpecError::new(message).help(help).at(injected.place.clone()));
+        }
+    }
+    Ok(())
 }
 
 /// Laws that no wall uses must be right too.
@@ -199,7 +218,7 @@ fn sampled_starts(walls: &[Wall], injections: &[Injected], behaviors: &[Behavior
     const SAMPLE: u64 = 1000;
     for (index, injected) in injections.iter().enumerate() {
         for i in 0..injected.injection.count().min(SAMPLE) {
-            let start = injected.injection.particle(i, |_| [0.0; 3]);
+            let start = injected.injection.particle(i, |_, _| [0.0; 3]);
             for (wall, behavior) in walls.iter().zip(behaviors) {
                 let reach = 0.5 * start.diameter;
                 if wall.shape.distance(start.position) - wall.clearance(reach) < -1e-9 * reach {
