@@ -4,7 +4,7 @@ use super::Kernel;
 use crate::impact::{ImpactError, Vec3};
 use crate::math::{self, Fma};
 use crate::normal::plastic::{Kadomtsev, LAMBDA};
-use crate::normal::{Ledger, Loss, NormalLaw, NormalResponse, Size};
+use crate::normal::{Loss, NormalLaw, NormalResponse, Size};
 use crate::pair::Pair;
 use crate::validity::Validity;
 use crate::vector::dot;
@@ -130,40 +130,54 @@ impl Limits {
 }
 
 impl Kernel {
-    /// The warnings about one impact; `tangent2` is the square of the speed along the wall.
+    /// The warnings about one impact.
     #[inline(always)]
-    pub(super) fn judge<F: Fma>(
-        &self,
-        f: F,
-        v: f64,
-        tangent2: f64,
-        size: &Size,
-        response: &NormalResponse,
-    ) -> Validity {
-        let mut validity = self.validity;
+    pub(super) fn judge<F: Fma>(&self, f: F, v: f64, size: &Size, response: &NormalResponse) -> Validity {
+        let validity = self.validity;
         match &self.normal {
-            NormalLaw::Table(_) => return validity,
+            NormalLaw::Table(_) => validity,
             NormalLaw::Ledger(ledger) => {
-                let yield_squared = ledger.yield_squared(size);
-                let kept = 1.0 - response.losses.plastic;
-                let large = self.limits.contact_is_large(v, size, kept, yield_squared);
-                let overlap = v * v > yield_squared && ledger.is_damped();
-                validity =
-                    validity.with(Validity::LARGE_CONTACT.when(large)).with(Validity::LOSSES_OVERLAP.when(overlap));
-                if response.e <= 0.0 {
-                    validity = validity.with(why_captured(f, ledger, v, size));
-                }
+                self.judge_ledger(f, ledger.yield_squared(size), ledger.is_damped(), v, size, response)
             }
             NormalLaw::Resolved(resolved) => {
                 let large = self.limits.contact_is_large(v, size, 1.0, f64::INFINITY);
-                validity = validity.with(Validity::LARGE_CONTACT.when(large)).with(resolved.warnings(v));
+                validity.with(Validity::LARGE_CONTACT.when(large)).with(resolved.warnings(v))
             }
         }
+    }
+}
+
+impl Kernel {
+    /// The warnings about an impact of a list of losses, given its yield velocity and whether damping is among them.
+    #[inline(always)]
+    pub(super) fn judge_ledger<F: Fma>(
+        &self,
+        f: F,
+        yield_squared: f64,
+        is_damped: bool,
+        v: f64,
+        size: &Size,
+        response: &NormalResponse,
+    ) -> Validity {
+        let kept = 1.0 - response.losses.plastic;
+        let large = self.limits.contact_is_large(v, size, kept, yield_squared);
+        let overlap = v * v > yield_squared && is_damped;
+        let validity =
+            self.validity.with(Validity::LARGE_CONTACT.when(large)).with(Validity::LOSSES_OVERLAP.when(overlap));
+        if response.e <= 0.0 { validity.with(why_captured(f, &self.normal, v, size)) } else { validity }
+    }
+}
+
+impl Kernel {
+    /// The warnings about materials at the scale of the contact, whatever the law; `tangent2` is the square of the speed along the wall.
+    #[inline(always)]
+    pub(super) fn scale_warnings(&self, v: f64, tangent2: f64, size: &Size, response: &NormalResponse) -> Validity {
+        let warnings = self.limits.contact_warnings(v, size);
         // below 45° a capture may be one that adhesion cannot hold
         if response.e <= 0.0 && tangent2 > v * v {
-            validity = validity.with(grazing(&self.normal, tangent2, size));
+            return warnings.with(grazing(&self.normal, tangent2, size));
         }
-        validity.with(self.limits.contact_warnings(v, size))
+        warnings
     }
 }
 
@@ -181,7 +195,8 @@ fn grazing(normal: &NormalLaw, tangent2: f64, size: &Size) -> Validity {
 
 /// A ledger left nothing: below the window (capture, no warning), above it, or without one.
 #[cold]
-fn why_captured<F: Fma>(f: F, ledger: &Ledger, v: f64, size: &Size) -> Validity {
+fn why_captured<F: Fma>(f: F, normal: &NormalLaw, v: f64, size: &Size) -> Validity {
+    let NormalLaw::Ledger(ledger) = normal else { return Validity::NONE };
     if !ledger.can_exhaust() {
         return Validity::NONE;
     }
