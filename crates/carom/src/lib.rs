@@ -51,4 +51,4 @@ pub use impact::{Energy, Fate, Impact, ImpactError, Outcome, Vec3};
 pub use normal::Window;
 pub use tangential::Contact;
 pub use validity::Validity;
-pub use wall::WallLaw;
+pub use wall::{AboveYield, WallLaw};
