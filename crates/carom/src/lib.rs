@@ -34,6 +34,7 @@ pub mod material;
 pub mod math;
 pub mod normal;
 pub mod pair;
+pub mod random;
 pub mod removal;
 pub mod resolved;
 pub mod roughness;
