@@ -8,6 +8,7 @@ mod files;
 mod flow;
 mod injection;
 mod removal;
+mod stl;
 mod text;
 mod wall;
 
@@ -94,7 +95,8 @@ impl Case {
         countable(&injections)?;
         injection::distinct(read.injection.iter().filter_map(|i| i.value.name.as_ref()), "injection")?;
         injection::distinct(read.wall.iter().map(|w| &w.value.name), "wall")?;
-        let walls = read.wall.iter().map(|w| wall::read(w, &files)).collect::<Result<Vec<_>, _>>()?;
+        let mut notes = Vec::new();
+        let walls = read.wall.iter().map(|w| wall::read(w, &files, &mut notes)).collect::<Result<Vec<_>, _>>()?;
         let largest = injections.iter().map(|i| i.largest).fold(0.0, f64::max);
         wall::contradictions(&read.wall, &walls, largest)?;
         let behaviors = read
@@ -114,7 +116,7 @@ impl Case {
             materials(&read, library).iter().fold(files.fingerprint(), |f, m| f.with_material(m)).number();
         let output = read.output;
         let bins = bins(&output)?;
-        let weightless = read.forces.gravity.is_none().then(|| "no gravity: [forces] gives none".to_owned());
+        notes.extend(read.forces.gravity.is_none().then(|| "no gravity: [forces] gives none".to_owned()));
         Ok(Self {
             title: read.title.unwrap_or_default(),
             name: name.to_owned(),
@@ -128,7 +130,7 @@ impl Case {
             fates: output.fates.unwrap_or_default().0,
             vtk: output.vtk.unwrap_or(true),
             bins,
-            notes: weightless.into_iter().collect(),
+            notes,
             text: text.to_owned(),
             fingerprint,
         })
