@@ -3,7 +3,7 @@
 //! All shapes in turn, several rounds; the least processor time of each and its ratio to the planes' are printed. `walls build` times
 //! building a mesh of a million triangles.
 
-use carom_track::domain::{Analytic, ContactAt, Wall};
+use carom_track::domain::{AnyDomain, ContactAt, Wall};
 use carom_track::dynamics::Dynamics;
 use carom_track::flow::{Flow, Fluid};
 use carom_track::force::{Drag, Forces};
@@ -138,7 +138,7 @@ fn main() {
     let settings =
         Settings { tolerance: 1e-5, until: UNTIL, settle_height: SettleHeight::DEFAULT, max_steps: 1_000_000, seed: 1 };
     let particles: Vec<Particle> = (0..PARTICLES).map(particle).collect();
-    let domains: Vec<_> = cases.iter().map(|(_, walls)| Analytic::new(Flow::Still, walls.clone())).collect();
+    let domains: Vec<_> = cases.iter().map(|(_, walls)| AnyDomain::new(Flow::Still, walls.clone())).collect();
     let begin = Instant::now();
     let mut least = vec![f64::INFINITY; cases.len()];
     for round in 0..ROUNDS {

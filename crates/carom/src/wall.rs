@@ -168,7 +168,13 @@ impl WallLaw {
     /// ```
     #[inline]
     pub fn impact(&self, impact: &Impact) -> Result<Outcome, ImpactError> {
-        run_scalar(OneImpact { law: self, impact })
+        if let Some(answer) = self.kernel.short_impact(impact) {
+            return answer;
+        }
+        match &self.kernel.scatter {
+            None => run_scalar(OneImpact::<false> { law: self, impact }),
+            Some(_) => run_scalar(OneImpact::<true> { law: self, impact }),
+        }
     }
 
     /// As [`WallLaw::impact`], compiled into the caller for the caller's own instruction set: the same bits, and the answer need not pass
@@ -184,16 +190,21 @@ impl WallLaw {
     }
 }
 
-struct OneImpact<'a> {
+/// One impact, on a wall that scatters or not: the many facets of one would crowd the short path of the other.
+struct OneImpact<'a, const SCATTERS: bool> {
     law: &'a WallLaw,
     impact: &'a Impact,
 }
 
-impl Work for OneImpact<'_> {
+impl<const SCATTERS: bool> Work for OneImpact<'_, SCATTERS> {
     type Output = Result<Outcome, ImpactError>;
 
     #[inline(always)]
     fn run<F: Fma, const LANES: usize>(self, f: F) -> Self::Output {
-        self.law.impact_on(f, self.impact)
+        let tables = self.law.tables();
+        match &self.law.kernel.scatter {
+            Some(scatter) if SCATTERS => self.law.kernel.rough_impact(f, &tables, scatter, self.impact),
+            _ => self.law.kernel.smooth_impact(f, &tables, self.impact),
+        }
     }
 }

@@ -141,7 +141,7 @@ impl<'a> Text<'a> {
             }
             self.solid()?;
         }
-        let decimal = 5.0 * 10f64.powi(-i32::try_from(self.digits).unwrap_or(16));
+        let decimal: f64 = format!("5e-{}", self.digits).parse().unwrap_or(COARSE);
         self.stl.precision = if self.single { SINGLE } else { decimal.clamp(1e-15, COARSE) };
         Ok(self.stl)
     }

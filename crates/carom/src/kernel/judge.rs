@@ -3,7 +3,7 @@
 use super::Kernel;
 use crate::impact::{ImpactError, Vec3};
 use crate::math::{self, Fma};
-use crate::normal::{Ledger, Loss, NormalLaw, NormalResponse, Size, plastic::LAMBDA};
+use crate::normal::{Loss, NormalLaw, NormalResponse, Size, plastic::LAMBDA};
 use crate::validity::Validity;
 use crate::vector::dot;
 use core::f64::consts::PI;
@@ -88,16 +88,7 @@ impl Kernel {
         match &self.normal {
             NormalLaw::Table(_) => validity,
             NormalLaw::Ledger(ledger) => {
-                let yield_squared = ledger.yield_squared(size);
-                let kept = 1.0 - response.losses.plastic;
-                let large = self.limits.contact_is_large(v, size, kept, yield_squared);
-                let overlap = v * v > yield_squared && ledger.is_damped();
-                let mut validity =
-                    validity.with(Validity::LARGE_CONTACT.when(large)).with(Validity::LOSSES_OVERLAP.when(overlap));
-                if response.e <= 0.0 {
-                    validity = validity.with(why_captured(f, ledger, v, size));
-                }
-                validity
+                self.judge_ledger(f, ledger.yield_squared(size), ledger.is_damped(), v, size, response)
             }
             NormalLaw::Resolved(resolved) => {
                 let large = self.limits.contact_is_large(v, size, 1.0, f64::INFINITY);
@@ -107,9 +98,31 @@ impl Kernel {
     }
 }
 
+impl Kernel {
+    /// The warnings about an impact of a list of losses, given its yield velocity and whether damping is among them.
+    #[inline(always)]
+    pub(super) fn judge_ledger<F: Fma>(
+        &self,
+        f: F,
+        yield_squared: f64,
+        is_damped: bool,
+        v: f64,
+        size: &Size,
+        response: &NormalResponse,
+    ) -> Validity {
+        let kept = 1.0 - response.losses.plastic;
+        let large = self.limits.contact_is_large(v, size, kept, yield_squared);
+        let overlap = v * v > yield_squared && is_damped;
+        let validity =
+            self.validity.with(Validity::LARGE_CONTACT.when(large)).with(Validity::LOSSES_OVERLAP.when(overlap));
+        if response.e <= 0.0 { validity.with(why_captured(f, &self.normal, v, size)) } else { validity }
+    }
+}
+
 /// A ledger left nothing: below the window (capture, no warning), above it, or without one.
 #[cold]
-fn why_captured<F: Fma>(f: F, ledger: &Ledger, v: f64, size: &Size) -> Validity {
+fn why_captured<F: Fma>(f: F, normal: &NormalLaw, v: f64, size: &Size) -> Validity {
+    let NormalLaw::Ledger(ledger) = normal else { return Validity::NONE };
     if !ledger.can_exhaust() {
         return Validity::NONE;
     }

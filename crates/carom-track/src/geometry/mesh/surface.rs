@@ -343,12 +343,11 @@ impl Surface {
         }
         // the widest angle between neighbouring directions must exceed half a turn
         let normal = cross(unit(sub(b, a))?, first);
-        let mut angles: Vec<f64> = ways.iter().map(|u| dot(*u, normal).atan2(dot(*u, first))).collect();
+        let mut angles: Vec<f64> = ways.iter().map(|u| quarters(dot(*u, first), dot(*u, normal))).collect();
         angles.sort_by(f64::total_cmp);
-        let turn = 2.0 * std::f64::consts::PI;
-        let wrapped = angles[0] + turn - angles[angles.len() - 1];
+        let wrapped = angles[0] + 4.0 - angles[angles.len() - 1];
         let widest = angles.windows(2).map(|w| w[1] - w[0]).fold(wrapped, f64::max);
-        if widest <= 0.5 * turn + 1e-9 {
+        if widest <= 2.0 + 1e-9 {
             return None;
         }
         // with a right or obtuse angle between two triangles all directions away are on one side of the first
@@ -377,6 +376,16 @@ impl Surface {
         }
         let middle = ways.iter().fold([0.0; 3], |sum, w| add(sum, *w));
         fan.iter().all(|d| dot(*d, middle) < -1e-9).then_some(ways)
+    }
+}
+
+/// Where a direction points, from 0 to 4 once round: opposite ones are 2 apart.
+fn quarters(x: f64, y: f64) -> f64 {
+    let share = y / (x.abs() + y.abs());
+    match (x >= 0.0, y >= 0.0) {
+        (true, true) => share,
+        (false, _) => 2.0 - share,
+        (true, false) => 4.0 + share,
     }
 }
 
