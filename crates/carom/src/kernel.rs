@@ -26,7 +26,7 @@ use crate::scatter::Scatter;
 use crate::tangential::Tangential;
 use crate::tangential::micro_slip::Shape;
 use crate::validity::Validity;
-pub(crate) use judge::Limits;
+pub(crate) use judge::{Judged, Limits};
 
 /// A compiled wall law: plain numbers, SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]

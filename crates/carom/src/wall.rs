@@ -2,7 +2,7 @@
 
 use crate::impact::{Impact, ImpactError, Outcome};
 use crate::instructions::{Work, run_scalar};
-use crate::kernel::{Kernel, Limits, Tables};
+use crate::kernel::{Judged, Kernel, Limits, Tables};
 use crate::math::{BEST, Fma};
 use crate::normal::empirical::{Curve, Piece};
 use crate::normal::{NormalLaw, Size};
@@ -12,7 +12,10 @@ use crate::tangential::Tangential;
 use crate::tangential::micro_slip::Shape;
 use crate::validity::Validity;
 
+mod above_yield;
 mod figures;
+
+pub use above_yield::AboveYield;
 
 /// A wall law, compiled from a [`crate::spec::LawSpec`]. Pure: no state, no allocation per impact, no panics; usable from
 /// many threads.
@@ -87,9 +90,8 @@ impl WallLaw {
         };
         let pair = parts.about.pair.as_ref();
         let density = pair.and_then(|p| p.density().ok()).unwrap_or(1000.0);
-        let stiffness = pair.and_then(|p| p.stiffness().ok());
-        let plastic_constant = pair.and_then(|p| p.plastic_constant().ok());
-        let limits = Limits::new(&normal, stiffness, plastic_constant, density);
+        let roughness_factor = parts.about.roughness_factor;
+        let limits = Limits::new(&Judged { normal: &normal, pair, roughness_factor, density });
         let (surface_curvature, validity) = (parts.surface_curvature, parts.validity);
         Self {
             kernel: Kernel { normal, tangential, density, surface_curvature, limits, validity, scatter: parts.scatter },

@@ -3,14 +3,17 @@
 //! Rows go through in chunks that stay in the first-level cache. Each loss takes its share from the whole chunk in a loop of its own
 //! (so that there is one loop a loss, not one a combination of losses), then friction does.
 
-use super::impact::{NO_SLIP, Rubbed};
+mod row;
+
+use super::impact::NO_SLIP;
 use super::short::{OnShort, Short};
-use super::{Kernel, Tables, judge};
+use super::{Kernel, Tables};
 use crate::batch::{Incidence, Rebound};
 use crate::instructions::{InstructionSet, Work};
 use crate::math::{Fma, Plain, sqrt, watched};
-use crate::normal::{Account, Ledger, Loops, Losses, Mechanism, NormalLaw, NormalResponse, Size};
+use crate::normal::{Account, Ledger, Loops, Losses, Mechanism, NormalLaw, Size};
 use crate::tangential::{Coulomb, FrictionLaw, Shaped, Tangential, constant};
+use row::{Leaving, Row};
 
 /// Rows handled at once.
 const CHUNK: usize = 128;
@@ -400,79 +403,4 @@ fn rub<F: Fma, L: FrictionLaw, const MORE: bool>(
         fine &= Row::at(rows, i).rub::<_, _, MORE>(f, law, *e, friction_share(i), out, i);
     }
     fine
-}
-
-#[derive(Clone, Copy)]
-struct Row {
-    v_n: f64,
-    v_t: f64,
-    spin: f64,
-    diameter: f64,
-}
-
-/// How a row leaves, if it does.
-struct Leaving {
-    e: f64,
-    v_t: f64,
-    spin: f64,
-    ratio: f64,
-}
-
-impl Row {
-    #[inline(always)]
-    fn at(rows: &Rows, i: usize) -> Self {
-        Self { v_n: rows.normal[i], v_t: rows.tangential[i], spin: rows.spin[i], diameter: rows.diameter[i] }
-    }
-
-    /// Friction, and the rebound.
-    #[inline(always)]
-    fn rub<F: Fma, L: FrictionLaw, const MORE: bool>(
-        &self,
-        f: F,
-        law: &L,
-        e: f64,
-        friction_share: f64,
-        out: &mut Out,
-        i: usize,
-    ) -> bool {
-        let radius = 0.5 * self.diameter;
-        let normal_impulse = (1.0 + e) * self.v_n;
-        let slip = f.fma(-radius, self.spin, self.v_t);
-        let response = NormalResponse { e, losses: Losses::default(), friction_share };
-        let rubbed = Rubbed::new(f, law, slip.abs(), normal_impulse, &response);
-        let direction = if slip < 0.0 { -1.0 } else { 1.0 };
-        let rebound = Leaving {
-            e,
-            v_t: self.v_t - direction * rubbed.impulse,
-            spin: rubbed.spin(radius) * direction + self.spin,
-            ratio: rubbed.impulse / normal_impulse,
-        };
-        self.write::<_, MORE>(f, true, &rebound, out, i)
-    }
-
-    /// Writes the row: the rebound, zeros for a capture, NaN for a row that is no impact or was not answered.
-    #[inline(always)]
-    fn write<F: Fma, const MORE: bool>(
-        &self,
-        f: F,
-        answered: bool,
-        leaving: &Leaving,
-        out: &mut Out,
-        i: usize,
-    ) -> bool {
-        let fine = judge::row_is_fine(f, self.v_n, self.v_t, self.spin, self.diameter) & answered;
-        let rebounds = leaving.e > 0.0;
-        let pick = |value: f64, captured: f64| {
-            let settled = if rebounds { value } else { captured };
-            if fine { settled } else { f64::NAN }
-        };
-        out.normal[i] = pick(leaving.e * self.v_n, 0.0);
-        out.tangential[i] = pick(leaving.v_t, 0.0);
-        out.spin[i] = pick(leaving.spin, 0.0);
-        if MORE && let Some((e, ratio)) = &mut out.more {
-            e[i] = pick(leaving.e, 0.0);
-            ratio[i] = pick(leaving.ratio, f64::NAN);
-        }
-        fine
-    }
 }

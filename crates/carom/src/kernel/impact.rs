@@ -47,7 +47,8 @@ impl Kernel {
         judge::approach(v_n, incident)?;
         let share = 1.0 / incident;
         let response = laws.respond(f, v_n, tangent2, &size);
-        let validity = laws.judge(f, self, v_n, &size, &response);
+        let validity =
+            laws.judge(f, self, v_n, &size, &response).with(self.scale_warnings(v_n, tangent2, &size, &response));
         let normal_share = v_n * v_n * share;
         let energy = normal_energy(&response, normal_share);
         if response.e <= 0.0 {
