@@ -11,6 +11,7 @@
 mod surface;
 
 use super::Walk;
+use super::walk::least_step;
 use crate::domain::{Domain, Hit, Next};
 use crate::dynamics::Bodies;
 use crate::geometry::{Path, Shape, evaluate};
@@ -329,7 +330,7 @@ impl<'a, D: Domain> Contact<'a, D> {
         let longest = self.walk.domain.longest(self.here, self.motion.x, self.motion.v);
         let meshed = surface.list().iter().any(|c| matches!(c.wall.shape, Shape::Mesh(_)));
         let stride = if meshed { STRIDE * self.radius() / speed } else { f64::INFINITY };
-        self.next.min(longest).min(stride)
+        self.next.min(longest).min(stride).max(least_step(self.time))
     }
 
     fn attempt(&self, surface: &Surface, kind: Kind, h: f64) -> Step<1> {

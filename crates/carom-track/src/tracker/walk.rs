@@ -216,7 +216,7 @@ impl<D: Domain> Walk<'_, D> {
     fn limit<const W: usize>(&self, crew: &mut Crew<W, D::Here>) {
         for l in 0..W {
             let (x, v, _) = motion_of(&crew.motion, l);
-            crew.longest[l] = self.domain.longest(crew.here[l], x, v);
+            crew.longest[l] = self.domain.longest(crew.here[l], x, v).max(least_step(crew.time[l]));
         }
     }
 
@@ -239,10 +239,9 @@ impl<D: Domain> Walk<'_, D> {
             crew.next[l] = h * factor.min(0.9);
         } else {
             match &met.next {
-                // time stands still: no step of that length leads anywhere
+                // too short a step to count against the time: again with one that does
                 Next::Clear if crew.time[l] + h == crew.time[l] && h < crew.stop[l] - crew.time[l] => {
-                    sink.stalled();
-                    finish(crew, l, Fate::Airborne, None, sink);
+                    crew.next[l] = least_step(crew.time[l]);
                 }
                 Next::Clear => self.accept(crew, l, factor, sink),
                 Next::Longest(share) => crew.next[l] = h * share,
@@ -336,6 +335,11 @@ impl<D: Domain> Walk<'_, D> {
             self.renew(crew, l, h);
         }
     }
+}
+
+/// A step that moves the time on, s.
+pub(super) fn least_step(time: f64) -> f64 {
+    (1e-14 * time.abs()).max(1e-30)
 }
 
 /// Tells the sink how a lane's particle ended; the lane is free then.
