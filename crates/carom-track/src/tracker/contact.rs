@@ -233,7 +233,7 @@ impl<'a, D: Domain> Contact<'a, D> {
         let m = &self.motion;
         let (a, turn) = self.steady(self.time, m);
         let pressed = surface.press(m, a);
-        if !(pressed.friction > 0.0) {
+        if pressed.friction <= 0.0 {
             return Kind::Free;
         }
         let slip = surface.slip(m, self.radius());
@@ -292,7 +292,8 @@ impl<'a, D: Domain> Contact<'a, D> {
             if self.steps > self.walk.settings.max_steps || self.time + h == self.time {
                 return Ending::Stalls;
             }
-            if !(trial.error_squared[0] <= 1.0) {
+            let good = trial.error_squared[0] <= 1.0;
+            if !good {
                 self.next = h * factor.min(0.9);
                 continue;
             }

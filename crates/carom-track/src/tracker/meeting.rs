@@ -196,7 +196,7 @@ impl<D: Domain> Walk<'_, D> {
         (body.eddy, body.kick) = ([None], [[0.0]; 3]);
         let a = self.rates_at(here, &body, x, along, after.spin).a;
         let press = -(n[0] * a[0][0] + n[1] * a[1][0] + n[2] * a[2][0]);
-        if self.dynamics.brownian && !(press * height > self.thermal_energy(&body)) {
+        if self.dynamics.brownian && press * height <= self.thermal_energy(&body) {
             // the molecules lift it higher than that again
             return false;
         }
