@@ -195,8 +195,11 @@ pub trait Sink {
     fn start(&mut self, particle: &Particle) -> bool;
     /// An impact.
     fn impact(&mut self, impact: &ImpactRecord);
-    /// The end of a contact motion that lasted: no impact, but a row like one. Its incoming speeds are those at the beginning.
-    fn contact_ended(&mut self, row: &ImpactRecord);
+    /// The end of a contact motion that lasted: no impact, but a row like one. Its incoming speeds are those at the beginning. Taken as
+    /// an impact unless the listener tells them apart.
+    fn contact_ended(&mut self, row: &ImpactRecord) {
+        self.impact(row);
+    }
     /// A point of a wanted path.
     fn point(&mut self, particle: u64, time: f64, position: Vec3, velocity: Vec3, spin: Vec3);
     /// A particle ended.
