@@ -8,9 +8,11 @@ mod files;
 mod flow;
 mod injection;
 mod removal;
+mod stl;
 mod text;
 mod wall;
 
+pub(crate) use files::Fingerprint;
 pub use injection::Injected;
 
 use crate::deposition::{Bins, Region};
@@ -90,9 +92,11 @@ impl Case {
         if injections.is_empty() {
             return Err(SpecError::new("the case injects nothing").help("add an [[injection]]"));
         }
+        countable(&injections)?;
         injection::distinct(read.injection.iter().filter_map(|i| i.value.name.as_ref()), "injection")?;
         injection::distinct(read.wall.iter().map(|w| &w.value.name), "wall")?;
-        let walls = read.wall.iter().map(|w| wall::read(w, &files)).collect::<Result<Vec<_>, _>>()?;
+        let mut notes = Vec::new();
+        let walls = read.wall.iter().map(|w| wall::read(w, &files, &mut notes)).collect::<Result<Vec<_>, _>>()?;
         let largest = injections.iter().map(|i| i.largest).fold(0.0, f64::max);
         wall::contradictions(&read.wall, &walls, largest)?;
         let behaviors = read
@@ -109,7 +113,7 @@ impl Case {
         sampled_starts(&walls, &injections, &behaviors)?;
         let output = read.output;
         let bins = bins(&output)?;
-        let weightless = read.forces.gravity.is_none().then(|| "no gravity: [forces] gives none".to_owned());
+        notes.extend(read.forces.gravity.is_none().then(|| "no gravity: [forces] gives none".to_owned()));
         // materials come from a library that may change: what was made of them tells
         let fingerprint = files.fingerprint().with_value(&behaviors).with_value(&injections).number();
         Ok(Self {
@@ -125,7 +129,7 @@ impl Case {
             fates: output.fates.unwrap_or_default().0,
             vtk: output.vtk.unwrap_or(true),
             bins,
-            notes: weightless.into_iter().collect(),
+            notes,
             text: text.to_owned(),
             fingerprint,
         })
@@ -155,6 +159,23 @@ impl Case {
         }
         None
     }
+}
+
+/// Particles are counted one by one, and JSON's readers keep no more digits.
+const MOST_PARTICLES: u64 = 1 << 53;
+
+fn countable(injections: &[Injected]) -> Result<(), SpecError> {
+    let mut all = 0u64;
+    for injected in injections {
+        all = all.saturating_add(injected.injection.count());
+        if all > MOST_PARTICLES {
+            let message = format!("{} makes {} particles or more in all", injected.name, MOST_PARTICLES + 1);
+            let help =
+                "at most 2^53 (9007199254740992) can be counted: give fewer, each with a weight (mass and parcels)";
+            return Err(SpecError::new(message).help(help).at(injected.place.clone()));
+        }
+    }
+    Ok(())
 }
 
 /// Laws that no wall uses must be right too.
