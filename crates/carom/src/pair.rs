@@ -7,8 +7,9 @@
 //! - work of adhesion w = γ₁ + γ₂ − γ₁₂ with γ₁₂ = γ₁ + γ₂ − 2Φ√(γ₁γ₂), so w = 2Φ√(γ₁γ₂), J/m² (Eqs 17, 18);
 //! - plastic constant k = σ/2 of the body that yields first, Pa.
 
-use crate::error::SpecError;
-use crate::material::Material;
+use crate::error::{LawError, Problem};
+use crate::material::{Material, PropertyKind};
+use crate::spec::Key;
 use std::f64::consts::PI;
 
 /// Values that replace what the materials would give.
@@ -34,24 +35,57 @@ pub struct Overrides {
 /// let pair = Pair::new(&steel, &silicon, &Overrides::default());
 /// assert_eq!((pair.stiffness()? / 1e8).round(), 1278.0); // Table 2: 127.8 GPa
 /// assert_eq!((pair.work_of_adhesion()? * 100.0).round(), 303.0); // Table 2: 3.03 J/m²
-/// # Ok::<(), carom::SpecError>(())
+/// # Ok::<(), carom::LawError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pair {
     sphere: Material,
     surface: Material,
+    /// Whether each of the two was given: a law may need neither.
+    given: [bool; 2],
     overrides: Overrides,
-}
-
-fn missing(material: &Material, what: &str, key: &str, instead: &str) -> SpecError {
-    let name = if material.name.is_empty() { "the material" } else { &material.name };
-    SpecError::new(format!("{name} has no {what}")).help(format!("give its {key}{instead}"))
 }
 
 impl Pair {
     /// Puts two materials together.
     pub fn new(sphere: &Material, surface: &Material, overrides: &Overrides) -> Self {
-        Self { sphere: sphere.clone(), surface: surface.clone(), overrides: *overrides }
+        Self::of(Some(sphere), Some(surface), overrides)
+    }
+
+    /// As [`Pair::new`], where one of the two, or both, may be missing.
+    pub(crate) fn of(sphere: Option<&Material>, surface: Option<&Material>, overrides: &Overrides) -> Self {
+        let given = [sphere.is_some(), surface.is_some()];
+        let body = |material: Option<&Material>, name: &str| material.cloned().unwrap_or_else(|| Material::new(name));
+        Self { sphere: body(sphere, "sphere"), surface: body(surface, "surface"), given, overrides: *overrides }
+    }
+
+    /// A property of one body that the law needs; `instead` would do for it.
+    fn needed(&self, surface: bool, property: PropertyKind, instead: Option<Key>) -> Result<f64, LawError> {
+        let material = if surface { &self.surface } else { &self.sphere };
+        material.value(property).ok_or_else(|| match self.given[usize::from(surface)] {
+            true => Problem::MissingProperty { material: material.name.clone(), property, instead }.into(),
+            false => Problem::MissingMaterial { sphere: !surface, surface, reader: None }.into(),
+        })
+    }
+
+    /// Young's modulus and Poisson's ratio of one body.
+    fn elasticity(&self, surface: bool, instead: Option<Key>) -> Result<[f64; 2], LawError> {
+        Ok([
+            self.needed(surface, PropertyKind::YoungModulus, instead)?,
+            self.needed(surface, PropertyKind::PoissonRatio, instead)?,
+        ])
+    }
+
+    /// Compliance k_i = (1 − ν²)/(πE), 1/Pa (Eq. 6), of the sphere and of the surface.
+    ///
+    /// # Errors
+    /// No Young's modulus or no Poisson's ratio.
+    pub fn compliances(&self) -> Result<[f64; 2], LawError> {
+        let one = |surface| -> Result<f64, LawError> {
+            let [e, nu] = self.elasticity(surface, Some(Key::Stiffness))?;
+            Ok((1.0 - nu * nu) / (PI * e))
+        };
+        Ok([one(false)?, one(true)?])
     }
 
     /// The sphere's material.
@@ -68,26 +102,27 @@ impl Pair {
     ///
     /// # Errors
     /// The sphere's material has none.
-    pub fn density(&self) -> Result<f64, SpecError> {
-        self.sphere.density.ok_or_else(|| missing(&self.sphere, "density", "density (rho)", ""))
+    pub fn density(&self) -> Result<f64, LawError> {
+        self.needed(false, PropertyKind::Density, None)
     }
 
     /// Hertzian stiffness K, Pa (Eq. 5).
     ///
     /// # Errors
     /// A material without Young's modulus or Poisson's ratio, and no override.
-    pub fn stiffness(&self) -> Result<f64, SpecError> {
+    pub fn stiffness(&self) -> Result<f64, LawError> {
         if let Some(k) = self.overrides.stiffness {
             return Ok(k);
         }
-        Ok(4.0 / (3.0 * PI * (compliance(&self.sphere)? + compliance(&self.surface)?)))
+        let [sphere, surface] = self.compliances()?;
+        Ok(4.0 / (3.0 * PI * (sphere + surface)))
     }
 
     /// Effective modulus E* = (3/4)K, Pa.
     ///
     /// # Errors
     /// As [`Pair::stiffness`].
-    pub fn effective_modulus(&self) -> Result<f64, SpecError> {
+    pub fn effective_modulus(&self) -> Result<f64, LawError> {
         Ok(0.75 * self.stiffness()?)
     }
 
@@ -96,10 +131,10 @@ impl Pair {
     ///
     /// # Errors
     /// A material without Young's modulus or Poisson's ratio.
-    pub fn stiffness_ratio(&self) -> Result<f64, SpecError> {
+    pub fn stiffness_ratio(&self) -> Result<f64, LawError> {
         let (mut normal, mut tangential) = (0.0, 0.0);
-        for m in [&self.sphere, &self.surface] {
-            let [e, nu] = elasticity(m, "")?;
+        for surface in [false, true] {
+            let [e, nu] = self.elasticity(surface, None)?;
             normal += (1.0 - nu * nu) / e;
             // (2 − ν)/(4G) with G = E/(2(1 + ν))
             tangential += (2.0 - nu) * (1.0 + nu) / (2.0 * e);
@@ -111,18 +146,12 @@ impl Pair {
     ///
     /// # Errors
     /// A material without surface energy, and no override.
-    pub fn work_of_adhesion(&self) -> Result<f64, SpecError> {
+    pub fn work_of_adhesion(&self) -> Result<f64, LawError> {
         if let Some(w) = self.overrides.work_of_adhesion {
             return Ok(w);
         }
-        let gamma = |m: &Material| {
-            m.surface_energy.ok_or_else(|| {
-                missing(m, "surface energy", "surface_energy (gamma)", ", or the pair's work_of_adhesion")
-            })
-        };
-        Ok(2.0
-            * self.overrides.interfacial_parameter.unwrap_or(1.0)
-            * (gamma(&self.sphere)? * gamma(&self.surface)?).sqrt())
+        let gamma = |surface| self.needed(surface, PropertyKind::SurfaceEnergy, Some(Key::WorkOfAdhesion));
+        Ok(2.0 * self.overrides.interfacial_parameter.unwrap_or(1.0) * (gamma(false)? * gamma(true)?).sqrt())
     }
 
     /// Plastic constant k = σ/2 of the body that yields first, Pa. A body without a yield strength is taken to stay
@@ -130,37 +159,25 @@ impl Pair {
     ///
     /// # Errors
     /// Neither material has a yield strength, and no override.
-    pub fn plastic_constant(&self) -> Result<f64, SpecError> {
+    pub fn plastic_constant(&self) -> Result<f64, LawError> {
         if let Some(k) = self.overrides.plastic_constant {
             return Ok(k);
         }
         match (self.sphere.yield_strength, self.surface.yield_strength) {
             (Some(a), Some(b)) => Ok(a.min(b) / 2.0),
             (Some(a), None) | (None, Some(a)) => Ok(a / 2.0),
-            (None, None) => Err(SpecError::new(format!(
-                "neither {} nor {} has a yield strength",
-                self.sphere.name, self.surface.name
-            ))
-            .help("give yield_strength (sigma) of the softer one, or the pair's plastic_constant k = sigma/2")),
+            (None, None) => Err(match self.given {
+                [true, true] => Problem::MissingInBoth {
+                    sphere: self.sphere.name.clone(),
+                    surface: self.surface.name.clone(),
+                    property: PropertyKind::YieldStrength,
+                    instead: Key::PlasticConstant,
+                },
+                [sphere, surface] => Problem::MissingMaterial { sphere: !sphere, surface: !surface, reader: None },
+            }
+            .into()),
         }
     }
-}
-
-/// Compliance k_i = (1 − ν²)/(πE), 1/Pa (Eq. 6).
-///
-/// # Errors
-/// No Young's modulus or no Poisson's ratio.
-pub fn compliance(m: &Material) -> Result<f64, SpecError> {
-    let [e, nu] = elasticity(m, ", or the pair's stiffness")?;
-    Ok((1.0 - nu * nu) / (PI * e))
-}
-
-/// Young's modulus and Poisson's ratio; `instead` is what else would do.
-fn elasticity(m: &Material, instead: &str) -> Result<[f64; 2], SpecError> {
-    Ok([
-        m.young_modulus.ok_or_else(|| missing(m, "Young's modulus", "young_modulus (E)", instead))?,
-        m.poisson_ratio.ok_or_else(|| missing(m, "Poisson's ratio", "poisson_ratio (nu)", instead))?,
-    ])
 }
 
 #[cfg(test)]

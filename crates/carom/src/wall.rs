@@ -181,7 +181,7 @@ impl WallLaw {
     /// let out = wall.impact(&Impact::new(70e-6, [1.0, -1.0, 0.0], [0.0, 1.0, 0.0])).expect("it approaches");
     /// assert_eq!(out.fate, Fate::Rebound);
     /// assert!((out.velocity[1] - 0.9728).abs() < 1e-3);
-    /// # Ok::<(), carom::SpecError>(())
+    /// # Ok::<(), carom::LawError>(())
     /// ```
     #[inline]
     pub fn impact(&self, impact: &Impact) -> Result<Outcome, ImpactError> {

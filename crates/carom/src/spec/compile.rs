@@ -1,10 +1,10 @@
-//! From a law as written to a law that answers: every need is checked here, once.
+//! From checked values to a law: each part's constants.
 
-use super::check::{checked, form_fits, need, not_negative, positive};
-use super::curve::Which;
-use super::{At, LawSpec, NormalKind, NormalSpec};
-use crate::error::SpecError;
-use crate::material::{Library, Material, MaterialRef};
+use super::keys::LawBuilder;
+use super::uses::Choice;
+use super::{Key, NormalKind, NormalSpec, TangentialKind};
+use crate::error::{LawError, Problem};
+use crate::normal::Loss;
 use crate::normal::adhesion::{Jkr, Work};
 use crate::normal::bons::Bons;
 use crate::normal::damping::Damping;
@@ -13,279 +13,167 @@ use crate::normal::ledger::{Adhesion, Ledger, Plastic};
 use crate::normal::plastic::Kadomtsev;
 use crate::normal::tabor::Tabor;
 use crate::normal::thornton_ning::{PRESSURE_OVER_STRENGTH, ThorntonNing};
-use crate::normal::{Loss, plastic};
-use crate::pair::{Overrides, Pair};
+use crate::pair::Pair;
 use crate::resolved::Resolved;
-use crate::roughness;
+use crate::roughness::{self, CALIBRATED_ROUGHNESS, CALIBRATED_SPACING, RoughnessModel, fuller_tabor};
+use crate::scatter::Scatter;
+use crate::tangential::{Tangential, micro_slip::MicroSlip};
 use crate::validity::Validity;
 use crate::wall::{NormalLaw, WallLaw};
 
-/// The numbers of a law, each within its range.
-struct Numbers {
-    adhesion_damping: Option<f64>,
-    hertz_damping: Option<f64>,
-    roughness_factor: f64,
-    spacing: f64,
-    surface_curvature: f64,
-    overrides: Overrides,
+/// The law of a builder whose values are within their ranges and whose keys are all read.
+pub(super) fn law(b: &LawBuilder, normal: &NormalSpec, pair: Option<Pair>) -> Result<WallLaw, LawError> {
+    let adheres = !normal.is_table();
+    let (factor, extrapolated) = roughness_factor(b, pair.as_ref().filter(|_| adheres))?;
+    let law = normal_law(b, normal, pair.as_ref(), factor).map_err(|e| e.blame(Key::Normal))?;
+    let tangential = tangential_law(b, pair.as_ref()).map_err(|e| e.blame(Key::Tangential))?;
+    let curvature = b.surface_curvature.map_or(0.0, |r| 1.0 / r);
+    let mut law = WallLaw::assemble(law, tangential, pair, curvature);
+    law.roughness = b.roughness;
+    law.roughness_factor = factor;
+    law.spacing = b.equilibrium_spacing.unwrap_or(CALIBRATED_SPACING);
+    law.scatter = b.roughness_angle.filter(|a| *a > 0.0).map(Scatter::new);
+    law.validity = Validity::ROUGHNESS_EXTRAPOLATED.when(extrapolated && uses_roughness(&law.normal));
+    Ok(law)
 }
 
-impl LawSpec {
-    /// Checks the law and turns it into one that answers.
-    ///
-    /// # Errors
-    /// What is missing, impossible or contradictory, with its place in the text the law was read from.
-    pub fn compile(&self, library: &Library) -> Result<WallLaw, SpecError> {
-        let normal_spec = self
-            .normal
-            .as_ref()
-            .ok_or_else(|| need("a normal law", &format!("normal = \"{}\"", NormalKind::NAMES.join("\" or \""))))?;
-        let mut numbers = self.numbers()?;
-        let pair = self.pair(library, &numbers)?;
-        // a table has no adhesion that a roughness could lessen, and need not have a pair
-        let table = matches!(normal_spec.value, NormalSpec::Named(NormalKind::Constant | NormalKind::ByAngle));
-        let roughness = self.roughness(numbers.spacing, pair.as_ref().filter(|_| !table))?;
-        numbers.roughness_factor = roughness.factor;
-        let place = normal_spec.span.clone();
-        self.refuse_idle_keys(&normal_spec.value)?;
-        let normal = self.normal_law(&normal_spec.value, pair.as_ref(), &numbers).map_err(|e| e.at(place))?;
-        let tangential = self.tangential_law(pair.as_ref())?;
-        let mut law = WallLaw::assemble(normal, tangential, pair, numbers.surface_curvature);
-        law.roughness = roughness.height;
-        law.roughness_factor = roughness.factor;
-        law.spacing = numbers.spacing;
-        law.scatter = self.scatter()?;
-        law.validity = Validity::ROUGHNESS_EXTRAPOLATED.when(roughness.extrapolated && uses_roughness(&law.normal));
-        Ok(law)
+/// C_R: given, or from the roughness by its model, or 1; and whether it lies beyond its curve's calibration.
+fn roughness_factor(b: &LawBuilder, pair: Option<&Pair>) -> Result<(f64, bool), LawError> {
+    let spacing = b.equilibrium_spacing.unwrap_or(CALIBRATED_SPACING);
+    match (b.roughness_factor, b.roughness) {
+        (Some(factor), _) => Ok((factor, false)),
+        (None, None) => Ok((1.0, false)),
+        (None, Some(height)) => match b.roughness_model.unwrap_or_default() {
+            RoughnessModel::FullerTabor => Ok((fuller_tabor(b, height, pair)?, false)),
+            RoughnessModel::Rabinovich => Ok((roughness::factor(height, spacing), height > CALIBRATED_ROUGHNESS)),
+        },
     }
+}
 
-    fn numbers(&self) -> Result<Numbers, SpecError> {
-        let damping = "zero or more is wanted, in s/m";
-        let spacing = checked(
-            &self.equilibrium_spacing,
-            "equilibrium_spacing",
-            |l| l.0,
-            positive,
-            "a positive length is wanted",
-        )?
-        .unwrap_or(roughness::CALIBRATED_SPACING);
-        let radius = checked(
-            &self.surface_curvature,
-            "surface_curvature",
-            |r| r.0,
-            |v| v != 0.0 && !v.is_nan(),
-            "a radius of curvature, \"inf\" for a flat surface, negative for a concave one",
-        )?;
-        Ok(Numbers {
-            adhesion_damping: checked(&self.adhesion_damping, "adhesion_damping", |d| d.0, not_negative, damping)?,
-            hertz_damping: checked(&self.hertz_damping, "hertz_damping", |d| d.0, not_negative, damping)?,
-            roughness_factor: 1.0,
-            spacing,
-            surface_curvature: radius.map_or(0.0, |r| 1.0 / r),
-            overrides: Overrides {
-                work_of_adhesion: checked(
-                    &self.work_of_adhesion,
-                    "work_of_adhesion",
-                    |w| w.0,
-                    not_negative,
-                    "zero or more is wanted, in J/m2",
-                )?,
-                stiffness: checked(&self.stiffness, "stiffness", |k| k.0, positive, "a positive pressure is wanted")?,
-                plastic_constant: checked(
-                    &self.plastic_constant,
-                    "plastic_constant",
-                    |k| k.0,
-                    positive,
-                    "a positive pressure is wanted",
-                )?,
-                interfacial_parameter: checked(
-                    &self.interfacial_parameter,
-                    "interfacial_parameter",
-                    |p| p.0,
-                    positive,
-                    "a positive number, about 1",
-                )?,
-            },
-        })
+/// Fuller & Tabor's C_R needs the pair; where there is none, nothing adheres.
+fn fuller_tabor(b: &LawBuilder, height: f64, pair: Option<&Pair>) -> Result<f64, LawError> {
+    let radius = b.needed(Key::AsperityRadius, Choice::RoughnessModel(RoughnessModel::FullerTabor))?;
+    let Some(pair) = pair else { return Ok(1.0) };
+    let blame = |e: LawError| e.blame(Key::RoughnessModel);
+    let (w, e_star) = (pair.work_of_adhesion().map_err(blame)?, pair.effective_modulus().map_err(blame)?);
+    if w <= 0.0 {
+        return Ok(1.0);
     }
+    Ok(fuller_tabor::factor(fuller_tabor::adhesion_parameter(height, radius, w, e_star)))
+}
 
-    fn pair(&self, library: &Library, numbers: &Numbers) -> Result<Option<Pair>, SpecError> {
-        let resolve = |given: &At<MaterialRef>| given.value.resolve(library).map_err(|e| e.at(given.span.clone()));
-        let sphere = self.sphere.as_ref().map(resolve).transpose()?;
-        let surface = self.surface.as_ref().map(resolve).transpose()?;
-        if sphere.is_none() && surface.is_none() && numbers.overrides == Overrides::default() {
-            return Ok(None);
+fn normal_law(b: &LawBuilder, spec: &NormalSpec, pair: Option<&Pair>, factor: f64) -> Result<NormalLaw, LawError> {
+    match spec {
+        NormalSpec::Named(kind @ (NormalKind::Constant | NormalKind::ByAngle)) => {
+            let reader = Choice::Normal(*kind);
+            let curve = given_curve(&b.restitution, Key::Restitution, reader)?;
+            form_fits(*kind == NormalKind::Constant, &curve, Key::Normal, Key::Restitution)?;
+            Ok(NormalLaw::Table(curve))
         }
-        let unnamed = |what: &str| Material { name: format!("the {what} (not given)"), ..Material::default() };
-        Ok(Some(Pair::new(
-            &sphere.unwrap_or_else(|| unnamed("sphere")),
-            &surface.unwrap_or_else(|| unnamed("surface")),
-            &numbers.overrides,
-        )))
-    }
-
-    /// Keys that would silently do nothing, where a reader would expect them to.
-    fn refuse_idle_keys(&self, normal: &NormalSpec) -> Result<(), SpecError> {
-        let table = matches!(normal, NormalSpec::Named(NormalKind::Constant | NormalKind::ByAngle));
-        if let (Some(at), false) = (&self.restitution, table) {
-            return Err(SpecError::new("restitution has no effect on this normal law")
-                .help("write normal = \"constant\" or \"by-angle\", or leave it out")
-                .at(at.span.clone()));
+        NormalSpec::Named(kind @ NormalKind::Resolved) => {
+            let pair = both(pair, Choice::Normal(*kind))?;
+            let damping =
+                Damping { adhesion: b.adhesion_damping.unwrap_or(0.0), hertz: b.hertz_damping.unwrap_or(0.0) };
+            Ok(NormalLaw::Resolved(Resolved::new(work(pair, factor)?, damping, b.adhesion.unwrap_or_default())))
         }
-        let takes = |loss: Loss| match normal {
-            NormalSpec::Losses(list) => list.contains(&loss),
-            NormalSpec::Named(NormalKind::ThorntonNing | NormalKind::Tabor) => false,
-            NormalSpec::Named(_) => true,
+        _ => ledger(b, spec, pair, factor).map(NormalLaw::Ledger),
+    }
+}
+
+fn ledger(b: &LawBuilder, spec: &NormalSpec, pair: Option<&Pair>, factor: f64) -> Result<Ledger, LawError> {
+    let mut ledger = Ledger::lossless();
+    for loss in spec.losses(b) {
+        let reader = match spec {
+            NormalSpec::Named(kind) => Choice::Normal(*kind),
+            NormalSpec::Losses(_) => Choice::Loss(loss),
         };
-        for (key, span, loss) in [
-            ("adhesion_damping", self.adhesion_damping.as_ref().map(|a| &a.span), Loss::AdhesionDamping),
-            ("hertz_damping", self.hertz_damping.as_ref().map(|a| &a.span), Loss::HertzDamping),
-        ] {
-            if let (Some(span), false) = (span, takes(loss)) {
-                return Err(SpecError::new(format!("{key} has no effect: the law has no {}", loss.name()))
-                    .help(format!("list the losses with \"{}\" among them, or leave the key out", loss.name()))
-                    .at(span.clone()));
+        match loss {
+            Loss::AdhesionWork => {
+                ledger.adhesion = Adhesion::Work;
+                ledger.work = work(both(pair, reader)?, factor)?;
+            }
+            Loss::AdhesionDamping => {
+                ledger.work = work(both(pair, reader)?, factor)?;
+                ledger.damping.adhesion = b.needed(Key::AdhesionDamping, reader)?;
+            }
+            Loss::HertzDamping => ledger.damping.hertz = b.needed(Key::HertzDamping, reader)?,
+            Loss::AdhesionJkr => {
+                let pair = both(pair, reader)?;
+                let jkr = Jkr::new(pair.effective_modulus()?, pair.work_of_adhesion()?, pair.density()?);
+                ledger.adhesion = Adhesion::Jkr(jkr);
+            }
+            Loss::PlasticTabor => {
+                ledger.plastic = Plastic::Tabor(Tabor {
+                    yield_velocity: b.needed(Key::YieldVelocity, reader)?,
+                    meyer_index: b.needed(Key::MeyerIndex, reader)?,
+                });
+            }
+            Loss::PlasticKadomtsev | Loss::PlasticThorntonNing | Loss::PlasticBons => {
+                ledger.plastic = plastic(b, loss, both(pair, reader)?)?;
             }
         }
-        if let (Some(at), false) = (&self.adhesion, matches!(normal, NormalSpec::Named(NormalKind::Resolved))) {
-            return Err(SpecError::new("adhesion is a choice of the resolved law alone")
-                .help("write normal = \"resolved\", or leave it out")
-                .at(at.span.clone()));
+    }
+    Ok(ledger)
+}
+
+fn plastic(b: &LawBuilder, loss: Loss, pair: &Pair) -> Result<Plastic, LawError> {
+    let (modulus, density) = (pair.effective_modulus()?, pair.density()?);
+    Ok(match loss {
+        Loss::PlasticThorntonNing => {
+            let given = b.limiting_pressure;
+            let pressure =
+                given.map_or_else(|| pair.plastic_constant().map(|k| 2.0 * k * PRESSURE_OVER_STRENGTH), Ok)?;
+            Plastic::ThorntonNing(ThorntonNing::new(modulus, pressure, density))
         }
+        Loss::PlasticBons => Plastic::Bons(Bons::new(modulus, 2.0 * pair.plastic_constant()?, density)),
+        _ => Plastic::Kadomtsev(Kadomtsev::new(modulus, pair.plastic_constant()?, density)),
+    })
+}
+
+fn tangential_law(b: &LawBuilder, pair: Option<&Pair>) -> Result<Tangential, LawError> {
+    let kind = b.tangential_kind();
+    let reader = Choice::Tangential(kind);
+    let friction = || b.needed(Key::Friction, reader);
+    Ok(match kind {
+        TangentialKind::Rolling => Tangential::Friction { friction: friction()?, beta: 0.0 },
+        TangentialKind::Walton => {
+            let beta = b.needed(Key::WaltonBeta, reader)?;
+            Tangential::Friction { friction: friction()?, beta }
+        }
+        TangentialKind::MicroSlip => {
+            let ratio = both(pair, reader)?.stiffness_ratio()?;
+            Tangential::MicroSlip(Box::new(MicroSlip::new(friction()?, ratio)))
+        }
+        TangentialKind::Constant | TangentialKind::ByAngle => {
+            let curve = given_curve(&b.tangential_restitution, Key::TangentialRestitution, reader)?;
+            let constant = kind == TangentialKind::Constant;
+            form_fits(constant, &curve, Key::Tangential, Key::TangentialRestitution)?;
+            Tangential::Restitution(curve)
+        }
+    })
+}
+
+/// A `constant` law takes a number, a `by-angle` law a curve.
+fn form_fits(constant: bool, curve: &Curve, law: Key, key: Key) -> Result<(), LawError> {
+    if constant == matches!(curve, Curve::Constant(_)) {
         Ok(())
-    }
-
-    fn normal_law(&self, spec: &NormalSpec, pair: Option<&Pair>, numbers: &Numbers) -> Result<NormalLaw, SpecError> {
-        let damping = [Loss::AdhesionDamping, Loss::HertzDamping];
-        let given = |losses: &[Loss]| {
-            let coefficients = [numbers.adhesion_damping, numbers.hertz_damping];
-            let extra = damping.iter().zip(coefficients).filter(|(_, c)| c.is_some()).map(|(l, _)| *l);
-            losses.iter().copied().chain(extra).collect::<Vec<_>>()
-        };
-        let losses = match spec {
-            NormalSpec::Losses(list) => list.clone(),
-            NormalSpec::Named(NormalKind::Ea) => given(&[Loss::AdhesionWork]),
-            NormalSpec::Named(NormalKind::Eap) => given(&[Loss::PlasticKadomtsev, Loss::AdhesionWork]),
-            NormalSpec::Named(NormalKind::ThorntonNing) => vec![Loss::PlasticThorntonNing, Loss::AdhesionJkr],
-            NormalSpec::Named(NormalKind::Tabor) => vec![Loss::PlasticTabor],
-            NormalSpec::Named(kind @ (NormalKind::Constant | NormalKind::ByAngle)) => {
-                return self.table(*kind).map(NormalLaw::Table);
-            }
-            NormalSpec::Named(NormalKind::Resolved) => {
-                let pair = pair.ok_or_else(|| {
-                    need("a sphere and a surface", "sphere and surface, by name or with their properties")
-                })?;
-                let damping = Damping {
-                    adhesion: numbers.adhesion_damping.unwrap_or(0.0),
-                    hertz: numbers.hertz_damping.unwrap_or(0.0),
-                };
-                let mode = self.adhesion.as_ref().map(|a| a.value).unwrap_or_default();
-                return Ok(NormalLaw::Resolved(Resolved::new(work(pair, numbers)?, damping, mode)));
-            }
-        };
-        super::normal::check(&losses)?;
-        self.ledger(&losses, pair, numbers).map(NormalLaw::Ledger)
-    }
-
-    fn table(&self, kind: NormalKind) -> Result<Curve, SpecError> {
-        let example =
-            if kind == NormalKind::Constant { "restitution = 0.7" } else { "restitution = { polynomial = [...] }" };
-        let at = self.restitution.as_ref().ok_or_else(|| need("a restitution", example))?;
-        form_fits(kind == NormalKind::Constant, at, "normal")?;
-        at.value.resolve(Which::Normal).map_err(|e| e.at(at.span.clone()))
-    }
-
-    fn ledger(&self, losses: &[Loss], pair: Option<&Pair>, numbers: &Numbers) -> Result<Ledger, SpecError> {
-        let mut ledger = Ledger::lossless();
-        let bare_tabor = losses == [Loss::PlasticTabor];
-        let wanted = || need("a sphere and a surface", "sphere and surface, by name or with their properties");
-        for loss in losses {
-            if bare_tabor {
-                ledger.plastic = Plastic::Tabor(self.tabor()?);
-                break;
-            }
-            let pair = pair.ok_or_else(wanted)?;
-            match loss {
-                Loss::AdhesionWork => {
-                    ledger.adhesion = Adhesion::Work;
-                    ledger.work = work(pair, numbers)?;
-                }
-                Loss::AdhesionDamping => {
-                    ledger.work = work(pair, numbers)?;
-                    ledger.damping.adhesion = numbers
-                        .adhesion_damping
-                        .ok_or_else(|| need("a coefficient for adhesion-damping", "adhesion_damping, in s/m"))?;
-                }
-                Loss::HertzDamping => {
-                    ledger.damping.hertz = numbers
-                        .hertz_damping
-                        .ok_or_else(|| need("a coefficient for hertz-damping", "hertz_damping, in s/m"))?
-                }
-                Loss::AdhesionJkr => {
-                    self.refuse_roughness_beside_jkr(losses)?;
-                    ledger.adhesion =
-                        Adhesion::Jkr(Jkr::new(pair.effective_modulus()?, pair.work_of_adhesion()?, pair.density()?));
-                }
-                Loss::PlasticKadomtsev => {
-                    ledger.plastic = Plastic::Kadomtsev(Kadomtsev::new(
-                        pair.effective_modulus()?,
-                        pair.plastic_constant()?,
-                        pair.density()?,
-                    ));
-                }
-                Loss::PlasticThorntonNing => {
-                    let given = checked(
-                        &self.limiting_pressure,
-                        "limiting_pressure",
-                        |p| p.0,
-                        positive,
-                        "a positive pressure is wanted",
-                    )?;
-                    let pressure =
-                        given.map_or_else(|| pair.plastic_constant().map(|k| 2.0 * k * PRESSURE_OVER_STRENGTH), Ok)?;
-                    ledger.plastic =
-                        Plastic::ThorntonNing(ThorntonNing::new(pair.effective_modulus()?, pressure, pair.density()?));
-                }
-                Loss::PlasticTabor => ledger.plastic = Plastic::Tabor(self.tabor()?),
-                Loss::PlasticBons => {
-                    let strength = 2.0 * pair.plastic_constant()?;
-                    ledger.plastic = Plastic::Bons(Bons::new(pair.effective_modulus()?, strength, pair.density()?));
-                }
-            }
-        }
-        Ok(ledger)
-    }
-
-    fn refuse_roughness_beside_jkr(&self, losses: &[Loss]) -> Result<(), SpecError> {
-        let span = self.roughness_factor.as_ref().map(|a| &a.span).or(self.roughness.as_ref().map(|a| &a.span));
-        match span {
-            Some(span) if !losses.contains(&Loss::AdhesionDamping) => {
-                Err(SpecError::new("a roughness factor beside adhesion-jkr, which has none in it")
-                    .help("leave roughness_factor and roughness out, or use adhesion-work")
-                    .at(span.clone()))
-            }
-            _ => Ok(()),
-        }
-    }
-
-    fn tabor(&self) -> Result<Tabor, SpecError> {
-        let yield_velocity =
-            checked(&self.yield_velocity, "yield_velocity", |v| v.0, positive, "a positive speed is wanted")?
-                .ok_or_else(|| need("Tabor's fitted yield velocity", "yield_velocity = \"0.09 m/s\""))?;
-        let meyer_index = checked(
-            &self.meyer_index,
-            "meyer_index",
-            |n| n.0,
-            |n| n > 0.5 && n < 3.0,
-            "Meyer's index lies between 0.5 and 3 (2 without, 2.5 with full work hardening)",
-        )?
-        .ok_or_else(|| need("Meyer's index", "meyer_index = 2.29"))?;
-        Ok(Tabor { yield_velocity, meyer_index })
+    } else {
+        Err(Problem::CurveForm { law, curve: key, constant }.into())
     }
 }
 
-fn work(pair: &Pair, numbers: &Numbers) -> Result<Work, SpecError> {
-    Ok(Work::new(pair.stiffness()?, pair.work_of_adhesion()?, numbers.roughness_factor, pair.density()?))
+fn given_curve(given: &Option<Curve>, key: Key, reader: Choice) -> Result<Curve, LawError> {
+    given.clone().ok_or_else(|| Problem::MissingKey { key, reader: Some(reader) }.into())
+}
+
+/// The pair that a choice needs.
+fn both(pair: Option<&Pair>, reader: Choice) -> Result<&Pair, LawError> {
+    let missing = || Problem::MissingMaterial { sphere: true, surface: true, reader: Some(reader) };
+    pair.ok_or_else(|| missing().into())
+}
+
+fn work(pair: &Pair, factor: f64) -> Result<Work, LawError> {
+    Ok(Work::new(pair.stiffness()?, pair.work_of_adhesion()?, factor, pair.density()?))
 }
 
 fn uses_roughness(normal: &NormalLaw) -> bool {
@@ -296,4 +184,4 @@ fn uses_roughness(normal: &NormalLaw) -> bool {
     }
 }
 
-const _: () = assert!(plastic::BETA <= 0.6);
+const _: () = assert!(crate::normal::plastic::BETA <= 0.6);

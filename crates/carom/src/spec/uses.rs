@@ -1,0 +1,175 @@
+//! Which keys a law reads: declared by each loss, each law and each model, for what they do in an impact and for the figures and
+//! warnings that go with it. A key that none of a law's parts declares is refused.
+//!
+//! A test holds the declarations against what the laws answer (`crates/carom/tests/keys.rs`).
+
+use super::{Key, NormalKind, TangentialKind};
+use crate::error::Wording;
+use crate::normal::Loss;
+use crate::resolved::AdhesionMode;
+use crate::roughness::RoughnessModel;
+
+/// A part of a law that reads keys of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Choice {
+    /// A normal law by name.
+    Normal(NormalKind),
+    /// A loss in a list.
+    Loss(Loss),
+    /// A tangential law.
+    Tangential(TangentialKind),
+    /// A model of roughness.
+    RoughnessModel(RoughnessModel),
+    /// A key whose presence makes another count.
+    Given(Key),
+}
+
+/// Keys of the adhesion in a contact.
+const ADHESION: [Key; 6] = [
+    Key::WorkOfAdhesion,
+    Key::InterfacialParameter,
+    Key::RoughnessFactor,
+    Key::Roughness,
+    Key::EquilibriumSpacing,
+    Key::Stiffness,
+];
+/// The contact's size, for `large-contact`.
+const CONTACT: [Key; 2] = [Key::Stiffness, Key::SurfaceCurvature];
+
+impl Loss {
+    /// The keys it reads, those of its materials' constants among them.
+    pub fn keys(self) -> Vec<Key> {
+        let own: &[&[Key]] = match self {
+            Self::AdhesionWork => &[&ADHESION],
+            Self::AdhesionDamping => &[&ADHESION, &[Key::AdhesionDamping]],
+            Self::HertzDamping => &[&[Key::HertzDamping]],
+            Self::AdhesionJkr => &[&[Key::WorkOfAdhesion, Key::InterfacialParameter, Key::EquilibriumSpacing]],
+            Self::PlasticKadomtsev | Self::PlasticBons => &[&[Key::PlasticConstant]],
+            Self::PlasticThorntonNing => &[&[Key::LimitingPressure, Key::PlasticConstant]],
+            Self::PlasticTabor => &[&[Key::YieldVelocity, Key::MeyerIndex]],
+        };
+        own.iter().copied().chain([&CONTACT[..]]).flatten().copied().collect()
+    }
+}
+
+impl NormalKind {
+    /// The losses that a law always has, and those it has where their coefficient is given.
+    pub(crate) fn losses(self) -> (&'static [Loss], &'static [Loss]) {
+        const DAMPING: &[Loss] = &[Loss::AdhesionDamping, Loss::HertzDamping];
+        match self {
+            Self::Ea => (&[Loss::AdhesionWork], DAMPING),
+            Self::Eap => (&[Loss::PlasticKadomtsev, Loss::AdhesionWork], DAMPING),
+            Self::ThorntonNing => (&[Loss::PlasticThorntonNing, Loss::AdhesionJkr], &[]),
+            Self::Tabor => (&[Loss::PlasticTabor], &[]),
+            Self::Constant | Self::ByAngle | Self::Resolved => (&[], &[]),
+        }
+    }
+
+    /// The keys it reads.
+    pub fn keys(self) -> Vec<Key> {
+        let own: &[&[Key]] = match self {
+            Self::Constant | Self::ByAngle => &[&[Key::Restitution]],
+            Self::Resolved => &[&ADHESION, &CONTACT, &[Key::Adhesion, Key::AdhesionDamping, Key::HertzDamping]],
+            _ => &[],
+        };
+        let (always, given) = self.losses();
+        let own = own.iter().copied().flatten().copied();
+        own.chain(always.iter().chain(given).flat_map(|l| l.keys())).collect()
+    }
+}
+
+impl TangentialKind {
+    /// The keys it reads.
+    pub fn keys(self) -> &'static [Key] {
+        match self {
+            Self::Rolling | Self::MicroSlip => &[Key::Friction],
+            Self::Walton => &[Key::Friction, Key::WaltonBeta],
+            Self::Constant | Self::ByAngle => &[Key::TangentialRestitution],
+        }
+    }
+}
+
+impl RoughnessModel {
+    /// The keys it reads.
+    pub fn keys(self) -> &'static [Key] {
+        match self {
+            Self::Rabinovich => &[Key::EquilibriumSpacing],
+            Self::FullerTabor => &[Key::AsperityRadius],
+        }
+    }
+}
+
+impl AdhesionMode {
+    /// The keys it reads: none.
+    pub fn keys(self) -> &'static [Key] {
+        &[]
+    }
+}
+
+impl Choice {
+    /// Everything that reads keys, the laws by name before single losses.
+    pub fn all() -> impl Iterator<Item = Self> {
+        let normal = NormalKind::ALL.iter().map(|k| Self::Normal(*k));
+        let losses = Loss::ALL.into_iter().map(Self::Loss);
+        let tangential = TangentialKind::ALL.iter().map(|k| Self::Tangential(*k));
+        let models = RoughnessModel::ALL.iter().map(|m| Self::RoughnessModel(*m));
+        normal.chain(losses).chain(tangential).chain(models).chain([Self::Given(Key::Roughness)])
+    }
+
+    /// The key that makes the choice.
+    pub fn key(self) -> Key {
+        match self {
+            Self::Normal(_) | Self::Loss(_) => Key::Normal,
+            Self::Tangential(_) => Key::Tangential,
+            Self::RoughnessModel(_) => Key::RoughnessModel,
+            Self::Given(key) => key,
+        }
+    }
+
+    /// Does it read `key`?
+    pub fn reads(self, key: Key) -> bool {
+        match self {
+            Self::Normal(kind) => kind.keys().contains(&key),
+            Self::Loss(loss) => loss.keys().contains(&key),
+            Self::Tangential(kind) => kind.keys().contains(&key),
+            Self::RoughnessModel(model) => model.keys().contains(&key),
+            Self::Given(_) => key == Key::RoughnessModel,
+        }
+    }
+
+    /// What reads `key`, a loss only where no law by name does more than list it.
+    pub fn readers(key: Key) -> Vec<Self> {
+        Self::all().filter(|c| c.reads(key)).collect()
+    }
+
+    /// Its name, as a value of its key.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Normal(kind) => kind.name(),
+            Self::Loss(loss) => loss.name(),
+            Self::Tangential(kind) => kind.name(),
+            Self::RoughnessModel(model) => model.name(),
+            Self::Given(key) => key.name(),
+        }
+    }
+
+    /// As it is written by a front's users.
+    pub fn setting(self, words: &dyn Wording) -> String {
+        match self {
+            Self::Loss(loss) => words.loss(loss.name()),
+            Self::Given(key) => words.key(key.name()),
+            other => words.setting(other.key().name(), other.name()),
+        }
+    }
+}
+
+/// Keys that every law reads: its parts, its materials, and the facets of a wall that scatters.
+pub(crate) const ALWAYS: [Key; 5] = [Key::Sphere, Key::Surface, Key::Normal, Key::Tangential, Key::RoughnessAngle];
+
+/// Where the first key is given, a law reads it in place of the second.
+pub(crate) const INSTEAD_OF: [(Key, Key); 3] = [
+    (Key::RoughnessFactor, Key::Roughness),
+    (Key::WorkOfAdhesion, Key::InterfacialParameter),
+    (Key::LimitingPressure, Key::PlasticConstant),
+];
