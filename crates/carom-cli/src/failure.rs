@@ -2,7 +2,7 @@
 
 use carom::SpecError;
 use carom_lab::LabError;
-use carom_report::ReportError;
+use carom_report::{ReportError, TableError};
 use clap::error::ErrorKind;
 use miette::{LabeledSpan, MietteDiagnostic, NamedSource};
 use std::io::{self, Write as _};
@@ -79,10 +79,19 @@ fn first_line(span: std::ops::Range<usize>, text: &str) -> std::ops::Range<usize
 
 impl From<ReportError> for Failure {
     fn from(error: ReportError) -> Self {
+        match error {
+            ReportError::Table(error) => error.into(),
+            other => Self::Other(other.to_string()),
+        }
+    }
+}
+
+impl From<TableError> for Failure {
+    fn from(error: TableError) -> Self {
         match &error {
-            ReportError::UnknownExtension { .. } => Self::Input(error.to_string()),
-            ReportError::File { path, source } => of_file(&path.display().to_string(), source),
-            ReportError::Stream(source) => Self::from_output(source),
+            TableError::UnknownExtension { .. } => Self::Input(error.to_string()),
+            TableError::File { path, source } => of_file(&path.display().to_string(), source),
+            TableError::Stream(source) => Self::from_output(source),
             _ => Self::Other(error.to_string()),
         }
     }
@@ -95,6 +104,7 @@ impl From<LabError> for Failure {
             LabError::Data { name, text, error } => Self::in_file(*error, &name, &text),
             LabError::File { path, source } => of_file(&path.display().to_string(), &source),
             LabError::Report(error) => error.into(),
+            LabError::Table(error) => error.into(),
             LabError::Points(message) => Self::Input(message),
             LabError::Fit(error) => Self::Input(error.to_string()),
             other => Self::Other(other.to_string()),

@@ -1,7 +1,7 @@
 //! What can be wrong with an experiment's files, the data of a fit, or the report's folder.
 
 use carom::SpecError;
-use carom_report::ReportError;
+use carom_report::{ReportError, TableError};
 use std::path::PathBuf;
 
 /// Why a validation or a fit stops.
@@ -45,6 +45,9 @@ pub enum LabError {
     /// The report could not be drawn or written.
     #[error(transparent)]
     Report(#[from] ReportError),
+    /// A table could not be built or written.
+    #[error(transparent)]
+    Table(#[from] TableError),
     /// A model refused an impact that the lab asked for.
     #[error("{0}")]
     Model(String),

@@ -1,43 +1,14 @@
-//! What can go wrong between a table or plot and its file.
+//! What can go wrong between a plot or report and its file.
 
-use std::io;
-use std::path::{Path, PathBuf};
+use carom_table::TableError;
 
-/// An error in building or writing a table, a plot or a report.
+/// An error in drawing a plot or writing a report.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReportError {
-    /// The path's extension names no format known for this kind of output.
-    #[error("{path}: cannot tell the format from the extension; known are {known}", path = .path.display())]
-    UnknownExtension {
-        /// The path as given.
-        path: PathBuf,
-        /// The known extensions, for the message.
-        known: &'static str,
-    },
-    /// The file could not be created, written or renamed.
-    #[error("{path}: {source}", path = .path.display())]
-    File {
-        /// The target path.
-        path: PathBuf,
-        /// What the operating system said.
-        source: io::Error,
-    },
-    /// Writing to a stream failed.
+    /// The table or the file behind it.
     #[error(transparent)]
-    Stream(#[from] io::Error),
-    /// The CSV encoder failed.
-    #[error("CSV: {0}")]
-    Csv(#[from] csv::Error),
-    /// The JSON encoder failed.
-    #[error("JSON: {0}")]
-    Json(#[from] serde_json::Error),
-    /// The Parquet encoder failed.
-    #[error("Parquet: {0}")]
-    Parquet(#[from] parquet::errors::ParquetError),
-    /// Columns, rows or arrays that belong together do not match in length, name or kind.
-    #[error("{0}")]
-    Mismatch(String),
+    Table(#[from] TableError),
     /// The drawing could not be rendered.
     #[error("cannot draw {what}: {reason}")]
     Draw {
@@ -49,18 +20,6 @@ pub enum ReportError {
 }
 
 impl ReportError {
-    /// Puts the target's path on an error that came from writing to it.
-    pub(crate) fn at(self, path: &Path) -> Self {
-        let source = match self {
-            Self::Stream(source) => source,
-            Self::Csv(e) if e.is_io_error() => e.into(),
-            Self::Json(e) if e.is_io() => e.into(),
-            Self::Parquet(e) => io::Error::other(e),
-            other => return other,
-        };
-        Self::File { path: path.to_path_buf(), source }
-    }
-
     pub(crate) fn draw(what: &str, reason: impl ToString) -> Self {
         Self::Draw { what: what.to_owned(), reason: reason.to_string() }
     }

@@ -22,8 +22,8 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use crate::table::{Table, Values, column_cells};
-use crate::{ReportError, file};
+use crate::ReportError;
+use carom_table::{Table, TableError, Values, column_cells, file};
 
 const STYLE: &str = include_str!("html/style.css");
 
@@ -137,13 +137,13 @@ impl Report {
     /// Writes the document to `path`, which ends in `.html`.
     ///
     /// # Errors
-    /// [`ReportError::UnknownExtension`], or what the file system says.
+    /// [`TableError::UnknownExtension`], or what the file system says.
     pub fn write(&self, path: impl AsRef<Path>) -> Result<(), ReportError> {
         let path = path.as_ref();
         if file::extension(path) != "html" {
-            return Err(ReportError::UnknownExtension { path: path.to_path_buf(), known: ".html" });
+            return Err(TableError::UnknownExtension { path: path.to_path_buf(), known: ".html" }.into());
         }
-        file::write_whole(path, self.html().as_bytes())
+        Ok(file::write_whole(path, self.html().as_bytes())?)
     }
 }
 

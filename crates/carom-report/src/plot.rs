@@ -21,7 +21,7 @@
 use std::path::Path;
 
 use crate::ReportError;
-use crate::file;
+use carom_table::{TableError, file};
 
 mod axis;
 mod canvas;
@@ -145,7 +145,7 @@ impl Plot {
     /// The plot as an SVG document.
     ///
     /// # Errors
-    /// [`ReportError::Mismatch`] where a series' arrays differ in length.
+    /// [`TableError::Mismatch`] where a series' arrays differ in length.
     pub fn svg(&self) -> Result<String, ReportError> {
         draw::plot(self)
     }
@@ -161,7 +161,7 @@ impl Plot {
     /// Writes the plot to `path` as SVG or PNG, told by its extension.
     ///
     /// # Errors
-    /// [`ReportError::UnknownExtension`], what the file system says, or as for [`Plot::svg`].
+    /// [`TableError::UnknownExtension`], what the file system says, or as for [`Plot::svg`].
     pub fn write(&self, path: impl AsRef<Path>) -> Result<(), ReportError> {
         let path = path.as_ref();
         let format = ImageFormat::from_path(path)?;
@@ -182,19 +182,19 @@ impl ImageFormat {
     /// The format told by a path's extension: `.svg` or `.png`; lets a command refuse a path before it computes.
     ///
     /// # Errors
-    /// [`ReportError::UnknownExtension`], naming the known ones.
+    /// [`TableError::UnknownExtension`], naming the known ones.
     pub fn from_path(path: impl AsRef<Path>) -> Result<Self, ReportError> {
         match file::extension(path.as_ref()).as_str() {
             "svg" => Ok(Self::Svg),
             "png" => Ok(Self::Png),
-            _ => Err(ReportError::UnknownExtension { path: path.as_ref().to_path_buf(), known: ".svg and .png" }),
+            _ => Err(TableError::UnknownExtension { path: path.as_ref().to_path_buf(), known: ".svg and .png" }.into()),
         }
     }
 }
 
 fn write_image(path: &Path, format: ImageFormat, svg: &str) -> Result<(), ReportError> {
     match format {
-        ImageFormat::Svg => file::write_whole(path, svg.as_bytes()),
-        ImageFormat::Png => file::write_whole(path, &png::encode(svg)?),
+        ImageFormat::Svg => Ok(file::write_whole(path, svg.as_bytes())?),
+        ImageFormat::Png => Ok(file::write_whole(path, &png::encode(svg)?)?),
     }
 }

@@ -3,7 +3,7 @@
 use std::fs;
 
 use carom_report::plot::{ColorMap, Legend, Marker, Reference};
-use carom_report::{Axis, Color, HeatMap, Plot, Report, ReportError, Series};
+use carom_report::{Axis, Color, HeatMap, Plot, Report, ReportError, Series, TableError};
 use resvg::tiny_skia::{Pixmap, PremultipliedColorU8};
 
 fn sample() -> Plot {
@@ -83,7 +83,7 @@ fn extension_chooses_the_format_and_others_are_refused_before_anything_is_drawn(
     assert_eq!(fs::read_to_string(path("a.svg")).unwrap(), sample().svg().unwrap());
     assert_eq!(&fs::read(path("a.PNG")).unwrap()[..4], b"\x89PNG");
     let error = sample().write(path("a.pdf")).unwrap_err();
-    assert!(matches!(error, ReportError::UnknownExtension { .. }));
+    assert!(matches!(error, ReportError::Table(TableError::UnknownExtension { .. })));
     assert!(error.to_string().ends_with("known are .svg and .png"), "{error}");
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);
 }

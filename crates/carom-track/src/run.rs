@@ -99,7 +99,7 @@ pub enum RunError {
     NoFolder,
     /// What a table holds could not be turned into Parquet.
     #[error(transparent)]
-    Table(#[from] carom_report::ReportError),
+    Table(#[from] carom_table::TableError),
     /// A part that is not among those to be merged.
     #[error("shard {index}/{of} is missing: all {of} are needed, finished")]
     Missing {

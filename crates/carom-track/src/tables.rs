@@ -1,6 +1,6 @@
 //! The tables a run writes: their names, columns and formats.
 
-use carom_report::{Field, Kind, Schema};
+use carom_table::{Field, Kind, Schema};
 
 /// The file format of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]

@@ -87,15 +87,16 @@ impl HeatMap {
     /// The map as an SVG document.
     ///
     /// # Errors
-    /// [`ReportError::Mismatch`] where the number of values does not fit the edges.
+    /// [`TableError::Mismatch`](carom_table::TableError::Mismatch) where the number of values does not fit the edges.
     pub fn svg(&self) -> Result<String, ReportError> {
         let (columns, rows) = (self.x_edges.len().saturating_sub(1), self.y_edges.len().saturating_sub(1));
         if self.values.len() != columns * rows {
             let got = self.values.len();
-            return Err(ReportError::Mismatch(format!(
+            return Err(carom_table::TableError::Mismatch(format!(
                 "heat map \"{}\": {got} values for {columns} × {rows} cells",
                 self.title
-            )));
+            ))
+            .into());
         }
         let margin = if self.colors == ColorMap::Diverging { Margin::Symmetric } else { Margin::None };
         let value = Scaled::new(&self.value, self.values.iter().copied(), margin);
@@ -172,7 +173,7 @@ impl HeatMap {
     /// Writes the map to `path` as SVG or PNG, told by its extension.
     ///
     /// # Errors
-    /// [`ReportError::UnknownExtension`], what the file system says, or as for [`HeatMap::svg`].
+    /// [`TableError::UnknownExtension`](carom_table::TableError::UnknownExtension), what the file system says, or as for [`HeatMap::svg`].
     pub fn write(&self, path: impl AsRef<Path>) -> Result<(), ReportError> {
         let path = path.as_ref();
         let format = ImageFormat::from_path(path)?;

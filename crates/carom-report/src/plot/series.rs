@@ -193,6 +193,10 @@ impl Series {
         if want == got {
             return Ok(());
         }
-        Err(ReportError::Mismatch(format!("series \"{}\": {got} {what} where {want} fit its abscissas", self.label)))
+        Err(carom_table::TableError::Mismatch(format!(
+            "series \"{}\": {got} {what} where {want} fit its abscissas",
+            self.label
+        ))
+        .into())
     }
 }

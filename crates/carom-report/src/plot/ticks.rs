@@ -1,6 +1,6 @@
 //! Where an axis is divided, and tidy numbers for it.
 
-use crate::number::{self, superscript};
+use carom_table::number::{self, superscript};
 
 /// A division of an axis.
 #[derive(Debug, Clone, PartialEq)]

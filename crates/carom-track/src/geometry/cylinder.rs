@@ -1,7 +1,11 @@
 //! A round wall: the inside of a pipe or the outside of a rod.
 
-use super::contact::first_contact;
+#![allow(clippy::needless_range_loop, reason = "one index runs through several arrays of lanes or components")]
+
+use super::contact::{first_contact, misses};
 use super::{Bernstein, Meeting, Path};
+use crate::integrate::{Lanes, Lanes3};
+use crate::lanes::{Mask, mask};
 use crate::vector::{Vec3, add, dot, scale, sub};
 
 /// An endless circular cylinder.
@@ -64,6 +68,69 @@ impl Cylinder {
         let normal = self.normal(x);
         let off = self.distance(x) - clearance;
         Some(Meeting { theta, position: add(x, scale(normal, -off)), normal })
+    }
+
+    /// Which of `W` paths may come within their clearances: all that are not surely clear of it.
+    #[inline(always)]
+    pub(super) fn may_meet<const W: usize>(
+        &self,
+        start: &Lanes3<W>,
+        path: &[Lanes3<W>; 5],
+        clearance: &Lanes<W>,
+        margin: &Lanes<W>,
+    ) -> Mask<W> {
+        let mut from = *start;
+        for c in 0..3 {
+            for l in 0..W {
+                from[c][l] -= self.point[c];
+            }
+        }
+        let r0 = self.across_lanes(&from);
+        let points = [0, 1, 2, 3, 4].map(|i| self.across_lanes(&path[i]));
+        let mut may = [0; W];
+        if self.inside {
+            // the disc is convex: a path whose control points are inside stays inside
+            let mut farthest = [0.0; W];
+            for l in 0..W {
+                farthest[l] = r0[0][l] * r0[0][l] + r0[1][l] * r0[1][l] + r0[2][l] * r0[2][l];
+            }
+            for p in &points {
+                for l in 0..W {
+                    let x = [r0[0][l] + p[0][l], r0[1][l] + p[1][l], r0[2][l] + p[2][l]];
+                    let square = x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
+                    farthest[l] = if square > farthest[l] { square } else { farthest[l] };
+                }
+            }
+            for l in 0..W {
+                let limit = self.radius - clearance[l] - margin[l];
+                may[l] = !(mask(limit > 0.0) & mask(farthest[l] < limit * limit));
+            }
+        } else {
+            // the rod lies behind the plane that touches it below the start
+            for l in 0..W {
+                let rho = (r0[0][l] * r0[0][l] + r0[1][l] * r0[1][l] + r0[2][l] * r0[2][l]).sqrt();
+                let n = [r0[0][l] / rho, r0[1][l] / rho, r0[2][l] / rho];
+                let mut lowest = f64::INFINITY;
+                for p in &points {
+                    let along = n[0] * p[0][l] + n[1] * p[1][l] + n[2] * p[2][l];
+                    lowest = if along < lowest { along } else { lowest };
+                }
+                may[l] = mask(!misses(rho - self.radius - clearance[l], lowest, margin[l]));
+            }
+        }
+        may
+    }
+
+    #[inline(always)]
+    fn across_lanes<const W: usize>(&self, x: &Lanes3<W>) -> Lanes3<W> {
+        let mut out = *x;
+        for l in 0..W {
+            let along = x[0][l] * self.axis[0] + x[1][l] * self.axis[1] + x[2][l] * self.axis[2];
+            for c in 0..3 {
+                out[c][l] -= along * self.axis[c];
+            }
+        }
+        out
     }
 
     /// A disc is convex: a path whose control points are all inside stays inside.

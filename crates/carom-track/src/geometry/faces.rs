@@ -89,6 +89,14 @@ impl<const W: usize> Ahead<W> {
         }
     }
 
+    /// Leaves the lanes of a mask to the look lane by lane.
+    #[inline(always)]
+    pub(crate) fn look_further(&mut self, lanes: &Mask<W>) {
+        for l in 0..W {
+            self.count[l] += lanes[l] & 2;
+        }
+    }
+
     /// Where on the step the only face ahead is met, for the lanes of which that is plain: a sphere clear of it, a gap whose
     /// coefficients change sign once. As [`Bernstein::first_descent`](super::Bernstein::first_descent), by Halley's method.
     #[inline(always)]
@@ -216,7 +224,7 @@ mod tests {
             for (i, face) in faces.iter().enumerate() {
                 ahead.look(i, face, &column(x), &points.map(column), &[0.1]);
             }
-            let met = Shape::Room(room).meet(&path, 0.1, 1e-12);
+            let met = Shape::Room(room).meet(&path, 0.1, 1e-12).map(|(m, _)| m);
             if ahead.count[0] == 0 {
                 prop_assert!(met.is_none());
             }

@@ -4,8 +4,12 @@
 //! off, the cylinders around the edges and the spheres around the corners, and the earliest contact counts. The path's
 //! control points bound it, so only triangles near their box are looked at, found through a tree of boxes.
 
+#![allow(clippy::needless_range_loop, reason = "one index runs through several arrays of lanes or components")]
+
 use super::contact::{bounded_contact, first_contact};
-use super::{Bernstein, Meeting, Path};
+use super::{Bernstein, Bounds, Meeting, Path};
+use crate::integrate::{Lanes, Lanes3};
+use crate::lanes::{Mask, mask};
 use crate::vector::{Vec3, add, cross, dot, norm, scale, sub, unit};
 
 /// A triangle by its corners, m.
@@ -14,14 +18,13 @@ pub type Triangle = [Vec3; 3];
 /// Triangles and the tree that finds them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
+    /// In the order of the leaves.
     triangles: Vec<Triangle>,
+    /// Where each was in the list given.
+    numbers: Vec<u32>,
     nodes: Vec<Node>,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Bounds {
-    min: Vec3,
-    max: Vec3,
+    /// The block that it is the surface of, if it is one.
+    solid: Option<Bounds>,
 }
 
 /// A box with a run of triangles (a leaf) or two boxes: the next node and the one named.
@@ -36,41 +39,17 @@ struct Node {
 /// Triangles in a leaf.
 const LEAF: usize = 4;
 
-impl Bounds {
-    const NONE: Self = Self { min: [f64::INFINITY; 3], max: [f64::NEG_INFINITY; 3] };
-
-    fn with(self, x: Vec3) -> Self {
-        Self { min: [0, 1, 2].map(|c| self.min[c].min(x[c])), max: [0, 1, 2].map(|c| self.max[c].max(x[c])) }
-    }
-
-    fn of(triangles: &[Triangle]) -> Self {
-        triangles.iter().flatten().fold(Self::NONE, |b, x| b.with(*x))
-    }
-
-    fn wider(self, reach: f64) -> Self {
-        Self { min: self.min.map(|c| c - reach), max: self.max.map(|c| c + reach) }
-    }
-
-    fn meets(&self, other: &Self) -> bool {
-        (0..3).all(|c| self.min[c] <= other.max[c] && self.max[c] >= other.min[c])
-    }
-
-    /// Distance of a point from the box, m.
-    fn distance(&self, x: Vec3) -> f64 {
-        norm([0, 1, 2].map(|c| (self.min[c] - x[c]).max(x[c] - self.max[c]).max(0.0)))
-    }
-}
-
 impl Mesh {
     /// A wall of triangles; those without area are left out. `None` if none is left.
     pub fn new(triangles: Vec<Triangle>) -> Option<Self> {
         let area = |t: &Triangle| norm(cross(sub(t[1], t[0]), sub(t[2], t[0])));
-        let mut triangles: Vec<Triangle> =
-            triangles.into_iter().filter(|t| area(t) > 0.0 && area(t).is_finite()).collect();
+        let mut numbered: Vec<(Triangle, u32)> = triangles.into_iter().zip(0..).collect();
+        numbered.retain(|(t, _)| area(t) > 0.0 && area(t).is_finite());
         let mut nodes = Vec::new();
-        let all = triangles.len();
-        grow(&mut triangles, 0, all, &mut nodes);
-        (!triangles.is_empty()).then_some(Self { triangles, nodes })
+        let all = numbered.len();
+        grow(&mut numbered, 0, all, &mut nodes);
+        let (triangles, numbers): (Vec<_>, Vec<_>) = numbered.into_iter().unzip();
+        (!triangles.is_empty()).then_some(Self { triangles, numbers, nodes, solid: None })
     }
 
     /// The outside of a block along the axes: twelve triangles.
@@ -79,7 +58,62 @@ impl Mesh {
             [[0, 1, 3, 2], [4, 5, 7, 6], [0, 1, 5, 4], [2, 3, 7, 6], [0, 2, 6, 4], [1, 3, 7, 5]];
         let v = |i: usize| [0, 1, 2].map(|c| if i >> c & 1 == 0 { min[c] } else { max[c] });
         let halves = |q: &[usize; 4]| [[v(q[0]), v(q[1]), v(q[2])], [v(q[0]), v(q[2]), v(q[3])]];
-        Self::new(FACES.iter().flat_map(halves).collect())
+        let surface = Self::new(FACES.iter().flat_map(halves).collect())?;
+        Some(Self { solid: Some(Bounds { min, max }), ..surface })
+    }
+
+    /// The box around it.
+    pub fn bounds(&self) -> Bounds {
+        self.nodes.first().map_or(Bounds::NONE, |n| n.bounds)
+    }
+
+    /// Which of `W` paths come near the box around it.
+    #[inline(always)]
+    pub(super) fn may_meet<const W: usize>(
+        &self,
+        start: &Lanes3<W>,
+        path: &[Lanes3<W>; 5],
+        clearance: &Lanes<W>,
+        margin: &Lanes<W>,
+    ) -> Mask<W> {
+        let bounds = self.bounds();
+        let mut may = [u64::MAX; W];
+        for c in 0..3 {
+            for l in 0..W {
+                let (mut low, mut high) = (0.0, 0.0);
+                for p in path {
+                    low = if p[c][l] < low { p[c][l] } else { low };
+                    high = if p[c][l] > high { p[c][l] } else { high };
+                }
+                let reach = clearance[l] + margin[l];
+                may[l] &= !mask(start[c][l] + low > bounds.max[c] + reach);
+                may[l] &= !mask(start[c][l] + high < bounds.min[c] - reach);
+            }
+        }
+        may
+    }
+
+    /// Tells the number, the normal and the gap (m) of the triangles within `slack` of contact with a sphere at `x`.
+    pub(super) fn touched(&self, x: Vec3, clearance: f64, slack: f64, tell: &mut impl FnMut(u32, Vec3, f64)) {
+        let reach = Bounds::around([x]).wider(clearance + slack);
+        let mut stack = vec![0];
+        while let Some((index, node)) = stack.pop().and_then(|i| self.nodes.get(i).map(|n| (i, n))) {
+            if !node.bounds.meets(&reach) {
+                continue;
+            }
+            if node.count == 0 {
+                stack.extend([node.second, index + 1]);
+            }
+            for i in node.first..node.first + node.count {
+                let away = sub(x, nearest(&self.triangles[i], x));
+                let gap = norm(away) - clearance;
+                if gap <= slack
+                    && let Some(normal) = unit(away)
+                {
+                    tell(self.numbers[i], normal, gap);
+                }
+            }
+        }
     }
 
     /// How many triangles.
@@ -92,8 +126,13 @@ impl Mesh {
         self.triangles.is_empty()
     }
 
-    /// Distance of a point from the nearest triangle, m.
+    /// Distance of a point from the nearest triangle, m; negative in a block.
     pub fn distance(&self, x: Vec3) -> f64 {
+        let inside = self.solid.is_some_and(|s| (0..3).all(|c| x[c] > s.min[c] && x[c] < s.max[c]));
+        if inside { -self.away(x) } else { self.away(x) }
+    }
+
+    fn away(&self, x: Vec3) -> f64 {
         let mut best = f64::INFINITY;
         let mut stack = vec![0];
         while let Some(node) = stack.pop().and_then(|i| self.nodes.get(i).map(|n| (i, n))) {
@@ -112,10 +151,9 @@ impl Mesh {
     }
 
     /// Where a path first comes within `clearance` of a triangle.
-    pub fn meet(&self, path: &Path, clearance: f64, slack: f64) -> Option<Meeting> {
-        let region = path.points.iter().fold(Bounds::NONE.with(path.start), |b, p| b.with(add(path.start, *p)));
-        let region = region.wider(clearance + slack);
-        let mut best: Option<Meeting> = None;
+    pub fn meet(&self, path: &Path, clearance: f64, slack: f64) -> Option<(Meeting, u32)> {
+        let region = Bounds::of_path(path).wider(clearance + slack);
+        let mut best: Option<(Meeting, u32)> = None;
         let mut stack = vec![0];
         while let Some((index, node)) = stack.pop().and_then(|i| self.nodes.get(i).map(|n| (i, n))) {
             if !node.bounds.meets(&region) {
@@ -124,11 +162,11 @@ impl Mesh {
             if node.count == 0 {
                 stack.extend([node.second, index + 1]);
             }
-            for t in self.triangles.iter().skip(node.first).take(node.count) {
-                if let Some(m) = touch(t, path, clearance, slack)
-                    && best.is_none_or(|b| m.theta < b.theta)
+            for i in node.first..node.first + node.count {
+                if let Some(m) = touch(&self.triangles[i], path, clearance, slack)
+                    && best.is_none_or(|(b, _)| m.theta < b.theta)
                 {
-                    best = Some(m);
+                    best = Some((m, self.numbers[i]));
                 }
             }
         }
@@ -137,9 +175,9 @@ impl Mesh {
 }
 
 /// Splits a run of triangles by the middle of its longest side until few are left.
-fn grow(triangles: &mut [Triangle], first: usize, count: usize, nodes: &mut Vec<Node>) {
+fn grow(triangles: &mut [(Triangle, u32)], first: usize, count: usize, nodes: &mut Vec<Node>) {
     let Some(run) = triangles.get_mut(first..first + count) else { return };
-    let bounds = Bounds::of(run);
+    let bounds = Bounds::around(run.iter().flat_map(|(t, _)| *t));
     let here = nodes.len();
     if count <= LEAF {
         nodes.push(Node { bounds, first, count, second: 0 });
@@ -147,7 +185,7 @@ fn grow(triangles: &mut [Triangle], first: usize, count: usize, nodes: &mut Vec<
     }
     let side = |c: usize| bounds.max[c] - bounds.min[c];
     let axis = (1..3).fold(0, |a, c| if side(c) > side(a) { c } else { a });
-    let middle = |t: &Triangle| t[0][axis] + t[1][axis] + t[2][axis];
+    let middle = |(t, _): &(Triangle, u32)| t[0][axis] + t[1][axis] + t[2][axis];
     run.sort_by(|a, b| middle(a).total_cmp(&middle(b)));
     nodes.push(Node { bounds, first, count: 0, second: 0 });
     grow(triangles, first, count / 2, nodes);
@@ -294,7 +332,7 @@ mod tests {
     const FLAT: Triangle = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
 
     fn fly(t: Triangle, from: Vec3, by: Vec3) -> Option<Meeting> {
-        Mesh::new(vec![t]).unwrap().meet(&Path::straight(from, by), 0.1, 1e-12)
+        Mesh::new(vec![t]).unwrap().meet(&Path::straight(from, by), 0.1, 1e-12).map(|(m, _)| m)
     }
 
     #[test]
@@ -325,7 +363,7 @@ mod tests {
         // from above, past the edge, under the triangle and up against its lower side
         let points = [[0.0, -0.4, -2.64], [0.0, -2.6, -3.3], [0.0, -4.0, -1.3], [0.0, -3.2, 1.36], [0.0, 0.0, 0.0]];
         let path = Path { start: [0.2, 1.0, 0.3], points };
-        let m = Mesh::new(vec![FLAT]).unwrap().meet(&path, 0.1, 1e-12).unwrap();
+        let m = Mesh::new(vec![FLAT]).unwrap().meet(&path, 0.1, 1e-12).unwrap().0;
         assert_eq!(m.normal, [0.0, -1.0, 0.0], "{m:?}");
         assert!((m.position[1] + 0.1).abs() < 1e-15);
     }
@@ -334,7 +372,7 @@ mod tests {
     fn a_block_is_hit_on_its_rounded_corner() {
         let block = Mesh::block([0.0; 3], [1.0; 3]).unwrap();
         // straight at the corner at the origin, from outside along the diagonal
-        let m = block.meet(&Path::straight([-1.0; 3], [1.0; 3]), 0.1, 1e-12).unwrap();
+        let m = block.meet(&Path::straight([-1.0; 3], [1.0; 3]), 0.1, 1e-12).unwrap().0;
         assert!(
             (norm(m.position) - 0.1).abs() < 1e-14 && m.normal.iter().all(|c| (c + 1.0 / 3f64.sqrt()).abs() < 1e-13)
         );
@@ -343,11 +381,11 @@ mod tests {
     #[test]
     fn a_box_of_triangles_is_the_room() {
         let room = super::super::Room { min: [0.0; 3], max: [1.0, 2.0, 3.0] };
-        let mesh = Mesh::block(room.min, room.max).unwrap();
+        let mesh = Mesh { solid: None, ..Mesh::block(room.min, room.max).unwrap() };
         assert_eq!(mesh.len(), 12);
         proptest!(|(x in prop::array::uniform3(0.15f64..0.85), by in prop::array::uniform3(-4.0f64..4.0))| {
             let path = Path::straight(x, by);
-            let (a, b) = (mesh.meet(&path, 0.1, 1e-12), room.meet(&path, 0.1, 1e-12));
+            let (a, b) = (mesh.meet(&path, 0.1, 1e-12).map(|(m, _)| m), room.meet(&path, 0.1, 1e-12));
             prop_assert_eq!(a.is_some(), b.is_some());
             if let (Some(a), Some(b)) = (a, b) {
                 prop_assert!((a.theta - b.theta).abs() < 1e-12, "{:?} {:?}", a, b);

@@ -5,6 +5,7 @@
 //! centre of mass do).
 
 pub mod bernstein;
+mod bounds;
 mod contact;
 mod cylinder;
 mod faces;
@@ -12,8 +13,10 @@ mod mesh;
 mod path;
 mod plane;
 mod room;
+mod walls;
 
 pub use bernstein::Bernstein;
+pub use bounds::Bounds;
 pub use cylinder::Cylinder;
 pub use faces::Ahead;
 pub(crate) use faces::Face;
@@ -21,6 +24,7 @@ pub use mesh::{Mesh, Triangle};
 pub use path::{Path, evaluate};
 pub use plane::Plane;
 pub use room::Room;
+pub use walls::{ContactAt, Hit, Overlap, Support, Supports, Wall, Walls};
 
 use crate::vector::Vec3;
 
@@ -59,14 +63,40 @@ impl Shape {
         }
     }
 
-    /// Where a path first comes within `clearance` of the shape. `slack` is the distance that counts as touching.
-    #[inline(always)]
-    pub fn meet(&self, path: &Path, clearance: f64, slack: f64) -> Option<Meeting> {
+    /// The box around it.
+    pub fn bounds(&self) -> Bounds {
         match self {
-            Self::Plane(p) => p.meet(path, clearance, slack),
-            Self::Cylinder(c) => c.meet(path, clearance, slack),
-            Self::Room(r) => r.meet(path, clearance, slack),
-            Self::Mesh(m) => m.meet(path, clearance, slack),
+            Self::Plane(_) | Self::Cylinder(_) => Bounds::ALL,
+            Self::Room(r) => Bounds { min: r.min, max: r.max },
+            Self::Mesh(m) => m.bounds(),
+        }
+    }
+
+    /// Where a path first comes within `clearance` of the shape, and on which triangle if it is a mesh. `slack` is the
+    /// distance that counts as touching.
+    #[inline(always)]
+    pub fn meet(&self, path: &Path, clearance: f64, slack: f64) -> Option<(Meeting, Option<u32>)> {
+        let smooth = |m| (m, None);
+        match self {
+            Self::Plane(p) => p.meet(path, clearance, slack).map(smooth),
+            Self::Cylinder(c) => c.meet(path, clearance, slack).map(smooth),
+            Self::Room(r) => r.meet(path, clearance, slack).map(smooth),
+            Self::Mesh(m) => m.meet(path, clearance, slack).map(|(m, face)| (m, Some(face))),
+        }
+    }
+
+    /// Tells the triangle, the normal and the gap (m) of every contact of a sphere at `x` that is within `slack`.
+    fn touched(&self, x: Vec3, clearance: f64, slack: f64, tell: &mut impl FnMut(Option<u32>, Vec3, f64)) {
+        let mut smooth = |distance: f64, normal: Vec3| {
+            if distance - clearance <= slack {
+                tell(None, normal, distance - clearance);
+            }
+        };
+        match self {
+            Self::Plane(p) => smooth(p.distance(x), p.normal),
+            Self::Cylinder(c) => smooth(c.distance(x), c.normal(x)),
+            Self::Room(r) => r.faces().iter().for_each(|f| smooth(f.distance(x), f.normal)),
+            Self::Mesh(m) => m.touched(x, clearance, slack, &mut |face, normal, gap| tell(Some(face), normal, gap)),
         }
     }
 }

@@ -11,7 +11,7 @@ use crate::case::Case;
 use crate::deposition::Bins;
 use crate::summary::Summary;
 use crate::tables::{LAYOUTS, Layout, TableFormat};
-use carom_report::{TableReader, TableWriter};
+use carom_table::{TableReader, TableWriter};
 use std::fs::{File, OpenOptions};
 use std::io::{ErrorKind, Seek, SeekFrom, Write};
 use std::ops::Range;

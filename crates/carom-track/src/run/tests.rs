@@ -202,8 +202,8 @@ fn case_with(output: &str) -> Case {
 }
 
 fn table(path: &Path, layout: usize) -> String {
-    let mut reader = carom_report::TableReader::open(path, LAYOUTS[layout].schema()).unwrap();
-    let mut all = carom_report::Table::with_schema(&LAYOUTS[layout].schema()).unwrap();
+    let mut reader = carom_table::TableReader::open(path, LAYOUTS[layout].schema()).unwrap();
+    let mut all = carom_table::Table::with_schema(&LAYOUTS[layout].schema()).unwrap();
     while let Some(batch) = reader.next_batch().unwrap() {
         all.append(batch).unwrap();
     }

@@ -5,7 +5,7 @@
 
 use super::RunError;
 use crate::tables::{IMPACTS, LAYOUTS, TRAJECTORIES, TableFormat};
-use carom_report::{Row, RowReader};
+use carom_table::{Row, RowReader};
 use std::borrow::Cow;
 use std::fmt::Write as _;
 use std::fs::File;

@@ -10,8 +10,12 @@ use crate::lanes::{Mask, bits, mask, take_lowest};
 use crate::vector::{Vec3, add};
 
 /// No wall.
-pub(super) const NONE: Hit =
-    Hit { wall: 0, meeting: Meeting { theta: 0.0, position: [0.0; 3], normal: [0.0; 3] }, wall_velocity: [0.0; 3] };
+pub(super) const NONE: Hit = Hit {
+    wall: 0,
+    face: None,
+    meeting: Meeting { theta: 0.0, position: [0.0; 3], normal: [0.0; 3] },
+    wall_velocity: [0.0; 3],
+};
 
 impl<D: Domain> Tracker<'_, D> {
     /// Where the steps of some lanes meet walls: the lanes that do as bits, their hits and the velocities there.

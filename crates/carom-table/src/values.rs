@@ -29,7 +29,7 @@ pub enum Kind {
 }
 
 impl Values {
-    pub(super) fn empty(kind: Kind) -> Self {
+    pub(crate) fn empty(kind: Kind) -> Self {
         match kind {
             Kind::Float => Self::Float(Vec::new()),
             Kind::Integer => Self::Integer(Vec::new()),
@@ -66,7 +66,7 @@ impl Values {
         }
     }
 
-    pub(super) fn truncate(&mut self, rows: usize) {
+    pub(crate) fn truncate(&mut self, rows: usize) {
         match self {
             Self::Float(v) => v.truncate(rows),
             Self::Integer(v) => v.truncate(rows),
@@ -75,7 +75,7 @@ impl Values {
         }
     }
 
-    pub(super) fn retain(&mut self, kept: &[bool]) {
+    pub(crate) fn retain(&mut self, kept: &[bool]) {
         fn retain<T>(values: &mut Vec<T>, kept: &[bool]) {
             let mut kept = kept.iter();
             values.retain(|_| kept.next().is_none_or(|k| *k));
@@ -89,7 +89,7 @@ impl Values {
     }
 
     /// Appends one cell; hands it back when its kind does not fit.
-    pub(super) fn push(&mut self, cell: Cell) -> Result<(), Cell> {
+    pub(crate) fn push(&mut self, cell: Cell) -> Result<(), Cell> {
         match (self, cell) {
             (Self::Float(v), Cell::Float(x)) => v.push(x),
             (Self::Float(v), Cell::Missing) => v.push(f64::NAN),
@@ -104,7 +104,7 @@ impl Values {
         Ok(())
     }
 
-    pub(super) fn extend(&mut self, other: &Self) {
+    pub(crate) fn extend(&mut self, other: &Self) {
         match (self, other) {
             (Self::Float(a), Self::Float(b)) => a.extend_from_slice(b),
             (Self::Integer(a), Self::Integer(b)) => a.extend_from_slice(b),

@@ -2,22 +2,22 @@
 
 use std::io::Write;
 
-use super::{Field, Table, Values};
-use crate::ReportError;
+use crate::TableError;
+use crate::{Field, Table, Values};
 
-pub(super) struct JsonEncoder<W: Write> {
+pub(crate) struct JsonEncoder<W: Write> {
     stream: W,
     keys: Vec<String>,
     rows: u64,
 }
 
 impl<W: Write> JsonEncoder<W> {
-    pub(super) fn new(stream: W, schema: &[Field]) -> Result<Self, ReportError> {
+    pub(crate) fn new(stream: W, schema: &[Field]) -> Result<Self, TableError> {
         let keys = schema.iter().map(|f| serde_json::to_string(&f.name)).collect::<Result<_, _>>()?;
         Ok(Self { stream, keys, rows: 0 })
     }
 
-    pub(super) fn write(&mut self, table: &Table) -> Result<(), ReportError> {
+    pub(crate) fn write(&mut self, table: &Table) -> Result<(), TableError> {
         for row in 0..table.rows() {
             self.stream.write_all(if self.rows == 0 { b"[\n{" } else { b",\n{" })?;
             for (i, (key, column)) in self.keys.iter().zip(table.columns()).enumerate() {
@@ -38,7 +38,7 @@ impl<W: Write> JsonEncoder<W> {
         Ok(())
     }
 
-    pub(super) fn finish(mut self) -> Result<W, ReportError> {
+    pub(crate) fn finish(mut self) -> Result<W, TableError> {
         self.stream.write_all(if self.rows == 0 { b"[]\n" } else { b"\n]\n" })?;
         self.stream.flush()?;
         Ok(self.stream)

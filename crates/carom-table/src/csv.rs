@@ -2,22 +2,22 @@
 
 use std::io::Write;
 
-use super::{Field, Table, Values};
-use crate::ReportError;
+use crate::TableError;
+use crate::{Field, Table, Values};
 
-pub(super) struct CsvEncoder<W: Write> {
+pub(crate) struct CsvEncoder<W: Write> {
     inner: csv::Writer<W>,
     number: String,
 }
 
 impl<W: Write> CsvEncoder<W> {
-    pub(super) fn new(stream: W, schema: &[Field]) -> Result<Self, ReportError> {
+    pub(crate) fn new(stream: W, schema: &[Field]) -> Result<Self, TableError> {
         let mut inner = csv::Writer::from_writer(stream);
         inner.write_record(schema.iter().map(|f| f.name.as_str()))?;
         Ok(Self { inner, number: String::new() })
     }
 
-    pub(super) fn write(&mut self, table: &Table) -> Result<(), ReportError> {
+    pub(crate) fn write(&mut self, table: &Table) -> Result<(), TableError> {
         for row in 0..table.rows() {
             for column in table.columns() {
                 self.number.clear();
@@ -35,8 +35,8 @@ impl<W: Write> CsvEncoder<W> {
         Ok(())
     }
 
-    pub(super) fn finish(self) -> Result<W, ReportError> {
-        self.inner.into_inner().map_err(|e| ReportError::Stream(e.into_error()))
+    pub(crate) fn finish(self) -> Result<W, TableError> {
+        self.inner.into_inner().map_err(|e| TableError::Stream(e.into_error()))
     }
 }
 

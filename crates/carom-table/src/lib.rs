@@ -1,7 +1,11 @@
-//! Tables of named columns with units, and their files.
+//! Tables of named columns with units, and their files: CSV, Parquet and JSON, whole ([`Table::write`]) or as a stream in flat
+//! memory ([`TableWriter`], [`TableReader`]), and aligned text for a terminal.
+//!
+//! Every file is written beside its target under a temporary name and renamed when it is whole, so that an error leaves no
+//! half-written file.
 //!
 //! ```
-//! use carom_report::{Column, Table};
+//! use carom_table::{Column, Table};
 //!
 //! let table = Table::new([
 //!     Column::count("particle", [1, 2, 3]),
@@ -9,16 +13,17 @@
 //!     Column::text("fate", ["capture", "rebound", "rebound"]),
 //! ])?;
 //! assert_eq!(table.to_csv()?, "particle,speed,fate\n1,0.1,capture\n2,0.25,rebound\n3,,rebound\n");
-//! # Ok::<(), carom_report::ReportError>(())
+//! # Ok::<(), carom_table::TableError>(())
 //! ```
 
 use std::path::Path;
 use std::sync::Arc;
 
-use crate::ReportError;
-
 mod csv;
+mod error;
+pub mod file;
 mod json;
+pub mod number;
 mod parquet;
 mod parquet_reader;
 mod reader;
@@ -27,9 +32,11 @@ mod text;
 mod values;
 mod writer;
 
+pub use error::TableError;
+pub use number::significant;
 pub use reader::TableReader;
 pub use rows::{Row, RowReader};
-pub(crate) use text::column_cells;
+pub use text::column_cells;
 pub use values::{Cell, Kind, Values};
 pub use writer::{Format, TableWriter, Target};
 
@@ -145,13 +152,13 @@ impl Table {
     /// Puts columns together.
     ///
     /// # Errors
-    /// [`ReportError::Mismatch`] where lengths differ or a name is used twice.
-    pub fn new(columns: impl IntoIterator<Item = Column>) -> Result<Self, ReportError> {
+    /// [`TableError::Mismatch`] where lengths differ or a name is used twice.
+    pub fn new(columns: impl IntoIterator<Item = Column>) -> Result<Self, TableError> {
         let columns: Vec<Column> = columns.into_iter().collect();
         for (i, column) in columns.iter().enumerate() {
             let (first, rows) = (&columns[0], column.values.len());
             if rows != first.values.len() {
-                return Err(ReportError::Mismatch(format!(
+                return Err(TableError::Mismatch(format!(
                     "column \"{}\" has {rows} rows, \"{}\" has {}",
                     column.name,
                     first.name,
@@ -159,7 +166,7 @@ impl Table {
                 )));
             }
             if columns[..i].iter().any(|other| other.name == column.name) {
-                return Err(ReportError::Mismatch(format!("two columns are named \"{}\"", column.name)));
+                return Err(TableError::Mismatch(format!("two columns are named \"{}\"", column.name)));
             }
         }
         Ok(Self { columns })
@@ -168,8 +175,8 @@ impl Table {
     /// A table without rows, to be filled by [`Table::push`].
     ///
     /// # Errors
-    /// [`ReportError::Mismatch`] where a name is used twice.
-    pub fn with_schema(schema: &[Field]) -> Result<Self, ReportError> {
+    /// [`TableError::Mismatch`] where a name is used twice.
+    pub fn with_schema(schema: &[Field]) -> Result<Self, TableError> {
         Self::new(schema.iter().map(|field| Column {
             name: field.name.clone(),
             unit: field.unit.clone(),
@@ -204,19 +211,19 @@ impl Table {
     /// Appends one row, a cell for each column.
     ///
     /// # Errors
-    /// [`ReportError::Mismatch`] where the number of cells or a cell's kind does not fit; the table is then as before.
-    pub fn push(&mut self, row: impl IntoIterator<Item = Cell>) -> Result<(), ReportError> {
+    /// [`TableError::Mismatch`] where the number of cells or a cell's kind does not fit; the table is then as before.
+    pub fn push(&mut self, row: impl IntoIterator<Item = Cell>) -> Result<(), TableError> {
         let row: Vec<Cell> = row.into_iter().collect();
         if row.len() != self.columns.len() {
             let (got, want) = (row.len(), self.columns.len());
-            return Err(ReportError::Mismatch(format!("a row of {got} cells for {want} columns")));
+            return Err(TableError::Mismatch(format!("a row of {got} cells for {want} columns")));
         }
         let before = self.rows();
         for (i, cell) in row.into_iter().enumerate() {
             if let Err(cell) = self.columns[i].values.push(cell) {
                 let field = self.columns[i].field();
                 self.truncate(before);
-                return Err(ReportError::Mismatch(format!(
+                return Err(TableError::Mismatch(format!(
                     "column \"{}\" is {:?}, not {cell:?}",
                     field.name, field.kind
                 )));
@@ -228,8 +235,8 @@ impl Table {
     /// Appends another table's rows.
     ///
     /// # Errors
-    /// [`ReportError::Mismatch`] where the schemas differ.
-    pub fn append(&mut self, other: &Self) -> Result<(), ReportError> {
+    /// [`TableError::Mismatch`] where the schemas differ.
+    pub fn append(&mut self, other: &Self) -> Result<(), TableError> {
         check_schema(&self.schema(), other)?;
         for (column, more) in self.columns.iter_mut().zip(&other.columns) {
             column.values.extend(&more.values);
@@ -255,8 +262,8 @@ impl Table {
     /// Writes the table to `path` as CSV, Parquet or JSON, told by its extension.
     ///
     /// # Errors
-    /// [`ReportError::UnknownExtension`], or what the file system or the encoder says.
-    pub fn write(&self, path: impl AsRef<Path>) -> Result<(), ReportError> {
+    /// [`TableError::UnknownExtension`], or what the file system or the encoder says.
+    pub fn write(&self, path: impl AsRef<Path>) -> Result<(), TableError> {
         let mut writer = TableWriter::create(path, self.schema())?;
         writer.write(self)?;
         writer.finish()
@@ -266,7 +273,7 @@ impl Table {
     ///
     /// # Errors
     /// What the encoder says.
-    pub fn to_csv(&self) -> Result<String, ReportError> {
+    pub fn to_csv(&self) -> Result<String, TableError> {
         self.to_string_as(Format::Csv)
     }
 
@@ -274,15 +281,15 @@ impl Table {
     ///
     /// # Errors
     /// What the encoder says.
-    pub fn to_json(&self) -> Result<String, ReportError> {
+    pub fn to_json(&self) -> Result<String, TableError> {
         self.to_string_as(Format::Json)
     }
 
-    fn to_string_as(&self, format: Format) -> Result<String, ReportError> {
+    fn to_string_as(&self, format: Format) -> Result<String, TableError> {
         let mut writer = TableWriter::to_stream(Vec::new(), format, self.schema())?;
         writer.write(self)?;
         let bytes = writer.finish_stream()?;
-        String::from_utf8(bytes).map_err(|e| ReportError::Mismatch(e.to_string()))
+        String::from_utf8(bytes).map_err(|e| TableError::Mismatch(e.to_string()))
     }
 
     /// The table as aligned text for a terminal: headings with units, numbers to six digits, at the right.
@@ -293,15 +300,15 @@ impl Table {
 }
 
 /// Fails unless `table` has exactly the columns of `schema`.
-fn check_schema(schema: &[Field], table: &Table) -> Result<(), ReportError> {
+fn check_schema(schema: &[Field], table: &Table) -> Result<(), TableError> {
     if table.columns.len() != schema.len() {
         let (got, want) = (table.columns.len(), schema.len());
-        return Err(ReportError::Mismatch(format!("a table of {got} columns where {want} were announced")));
+        return Err(TableError::Mismatch(format!("a table of {got} columns where {want} were announced")));
     }
     for (field, column) in schema.iter().zip(&table.columns) {
         let got = column.field();
         if got != *field {
-            return Err(ReportError::Mismatch(format!(
+            return Err(TableError::Mismatch(format!(
                 "column \"{}\" ({:?}, unit \"{}\") where \"{}\" ({:?}, unit \"{}\") was announced",
                 got.name, got.kind, got.unit, field.name, field.kind, field.unit
             )));

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
-use crate::ReportError;
+use crate::TableError;
 
 /// A file written under a temporary name beside its target; [`NewFile::commit`] renames it,
 /// dropping it before that removes it.
@@ -16,7 +16,7 @@ pub(crate) struct NewFile {
 }
 
 impl NewFile {
-    pub(crate) fn create(target: &Path) -> Result<Self, ReportError> {
+    pub(crate) fn create(target: &Path) -> Result<Self, TableError> {
         let folder = match target.parent() {
             Some(folder) if !folder.as_os_str().is_empty() => folder,
             _ => Path::new("."),
@@ -27,13 +27,13 @@ impl NewFile {
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
         let file =
-            builder.tempfile_in(folder).map_err(|source| ReportError::File { path: target.to_path_buf(), source })?;
+            builder.tempfile_in(folder).map_err(|source| TableError::File { path: target.to_path_buf(), source })?;
         Ok(Self { target: target.to_path_buf(), inner: BufWriter::new(file) })
     }
 
-    pub(crate) fn commit(self) -> Result<(), ReportError> {
+    pub(crate) fn commit(self) -> Result<(), TableError> {
         let Self { target, inner } = self;
-        let fail = |source| ReportError::File { path: target.clone(), source };
+        let fail = |source| TableError::File { path: target.clone(), source };
         let file = inner.into_inner().map_err(|e| fail(e.into_error()))?;
         file.persist(&target).map_err(|e| fail(e.error))?;
         Ok(())
@@ -51,9 +51,12 @@ impl Write for NewFile {
 }
 
 /// Writes `bytes` to `target`, whole or not at all.
-pub(crate) fn write_whole(target: &Path, bytes: &[u8]) -> Result<(), ReportError> {
+///
+/// # Errors
+/// A place that cannot be written.
+pub fn write_whole(target: &Path, bytes: &[u8]) -> Result<(), TableError> {
     let mut file = NewFile::create(target)?;
-    file.write_all(bytes).map_err(|e| ReportError::from(e).at(target))?;
+    file.write_all(bytes).map_err(|e| TableError::from(e).at(target))?;
     file.commit()
 }
 
@@ -61,11 +64,11 @@ pub(crate) fn write_whole(target: &Path, bytes: &[u8]) -> Result<(), ReportError
 ///
 /// # Errors
 /// A place that cannot be written.
-pub fn write_text(target: &Path, text: &str) -> Result<(), ReportError> {
+pub fn write_text(target: &Path, text: &str) -> Result<(), TableError> {
     write_whole(target, text.as_bytes())
 }
 
 /// The path's extension in lower case, empty when there is none.
-pub(crate) fn extension(path: &Path) -> String {
+pub fn extension(path: &Path) -> String {
     path.extension().and_then(OsStr::to_str).unwrap_or_default().to_ascii_lowercase()
 }

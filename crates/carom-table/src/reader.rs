@@ -5,15 +5,15 @@ use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::parquet_reader::ParquetDecoder;
-use super::rows::{Row, RowReader};
-use super::{Cell, Field, Format, Kind, Schema, Table};
-use crate::ReportError;
+use crate::TableError;
+use crate::parquet_reader::ParquetDecoder;
+use crate::rows::{Row, RowReader};
+use crate::{Cell, Field, Format, Kind, Schema, Table};
 
 /// Reads some columns of a CSV or Parquet file, a batch of rows at a time; memory stays flat.
 ///
 /// ```
-/// use carom_report::{Column, Field, Table, TableReader, Values};
+/// use carom_table::{Column, Field, Table, TableReader, Values};
 ///
 /// # let folder = tempfile::tempdir()?;
 /// # let path = folder.path().join("impacts.parquet");
@@ -71,16 +71,16 @@ impl TableReader {
     /// Opens a file whose format its extension tells, for the columns of `schema`, told by their names.
     ///
     /// # Errors
-    /// [`ReportError::UnknownExtension`] (JSON is not read), [`ReportError::File`], and [`ReportError::Mismatch`] for a
+    /// [`TableError::UnknownExtension`] (JSON is not read), [`TableError::File`], and [`TableError::Mismatch`] for a
     /// column that the file lacks or that is of another kind.
-    pub fn open(path: impl AsRef<Path>, schema: Schema) -> Result<Self, ReportError> {
+    pub fn open(path: impl AsRef<Path>, schema: Schema) -> Result<Self, TableError> {
         let path = path.as_ref();
         let format = Format::from_path(path)?;
-        let file = File::open(path).map_err(|e| ReportError::Stream(e).at(path))?;
+        let file = File::open(path).map_err(|e| TableError::Stream(e).at(path))?;
         let decoder = match format {
             Format::Csv => CsvDecoder::new(file, &schema).map(|d| Decoder::Csv(Box::new(d))),
             Format::Parquet => ParquetDecoder::new(file, &schema).map(|d| Decoder::Parquet(Box::new(d))),
-            Format::Json => Err(ReportError::UnknownExtension { path: path.to_path_buf(), known: ".csv and .parquet" }),
+            Format::Json => Err(TableError::UnknownExtension { path: path.to_path_buf(), known: ".csv and .parquet" }),
         };
         let decoder = decoder.map_err(|e| named(e, path))?;
         Ok(Self {
@@ -101,8 +101,8 @@ impl TableReader {
     /// The next rows, in the order of the file; `None` after the last.
     ///
     /// # Errors
-    /// [`ReportError::File`], and [`ReportError::Mismatch`] for a cell that is not of its column's kind.
-    pub fn next_batch(&mut self) -> Result<Option<&Table>, ReportError> {
+    /// [`TableError::File`], and [`TableError::Mismatch`] for a cell that is not of its column's kind.
+    pub fn next_batch(&mut self) -> Result<Option<&Table>, TableError> {
         let mut more = true;
         self.batch.clear();
         while more && self.batch.rows() == 0 {
@@ -124,9 +124,9 @@ impl TableReader {
 }
 
 /// Says which file an error is about.
-fn named(error: ReportError, path: &Path) -> ReportError {
+fn named(error: TableError, path: &Path) -> TableError {
     match error.at(path) {
-        ReportError::Mismatch(message) => ReportError::Mismatch(format!("{}: {message}", path.display())),
+        TableError::Mismatch(message) => TableError::Mismatch(format!("{}: {message}", path.display())),
         error => error,
     }
 }
@@ -145,14 +145,14 @@ struct CsvDecoder {
 const TEXTS: usize = 256;
 
 impl CsvDecoder {
-    fn new(file: File, schema: &[Field]) -> Result<Self, ReportError> {
+    fn new(file: File, schema: &[Field]) -> Result<Self, TableError> {
         let mut rows = RowReader::new(file);
         let header: Vec<Cow<[u8]>> = rows.next_row()?.map_or_else(Vec::new, |row| row.fields().map(owned).collect());
         let mut wanted = vec![None; header.len()];
         for (column, field) in schema.iter().enumerate() {
             let place = header.iter().position(|name| **name == *field.name.as_bytes());
             let place = place.and_then(|p| wanted.get_mut(p));
-            *place.ok_or_else(|| ReportError::Mismatch(format!("there is no column \"{}\"", field.name)))? =
+            *place.ok_or_else(|| TableError::Mismatch(format!("there is no column \"{}\"", field.name)))? =
                 Some(column);
         }
         // what stands behind the last wanted column need not be split off
@@ -162,7 +162,7 @@ impl CsvDecoder {
         Ok(Self { rows, wanted, count: schema.len(), texts: Vec::new() })
     }
 
-    fn read(&mut self, batch: &mut Table, sample: &mut Sample) -> Result<(), ReportError> {
+    fn read(&mut self, batch: &mut Table, sample: &mut Sample) -> Result<(), TableError> {
         let mut taken = 0;
         while taken < ROWS {
             let Some(row) = self.rows.next_row()? else { break };
@@ -172,7 +172,7 @@ impl CsvDecoder {
                 continue;
             }
             if let Err(bad) = push(row, &self.wanted, self.count, &mut self.texts, batch) {
-                return Err(ReportError::Mismatch(format!("line {}: {bad}", self.rows.line())));
+                return Err(TableError::Mismatch(format!("line {}: {bad}", self.rows.line())));
             }
             taken += 1;
         }

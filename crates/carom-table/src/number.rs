@@ -22,12 +22,12 @@ pub fn significant(value: f64, digits: usize) -> String {
 }
 
 /// Without the zeros that end a decimal fraction.
-pub(crate) fn trim(digits: &str) -> &str {
+pub fn trim(digits: &str) -> &str {
     if digits.contains('.') { digits.trim_end_matches('0').trim_end_matches('.') } else { digits }
 }
 
 /// `exponent` in superscript digits, with a superscript minus.
-pub(crate) fn superscript(exponent: i32) -> String {
+pub fn superscript(exponent: i32) -> String {
     const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     exponent.to_string().chars().map(|c| c.to_digit(10).map_or('⁻', |d| DIGITS[d as usize])).collect()
 }

@@ -9,7 +9,7 @@ use std::io::{self, Read};
 /// Reads rows one after the other; memory holds a stretch of the file, or one row where that is longer.
 ///
 /// ```
-/// use carom_report::RowReader;
+/// use carom_table::RowReader;
 /// let mut rows = RowReader::new("particle,wall\n7,\"floor, left\"\n".as_bytes());
 /// assert!(rows.next_row()?.is_some_and(|header| header.fields().eq(["particle", "wall"].map(str::as_bytes))));
 /// let row = rows.next_row()?.expect("a row");

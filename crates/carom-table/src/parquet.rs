@@ -10,19 +10,19 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::types::Type;
 
-use super::{Field, Kind, Table, Values};
-use crate::ReportError;
+use crate::TableError;
+use crate::{Field, Kind, Table, Values};
 
 /// Rows gathered before they become a row group: enough to compress well, about 10 MB for twenty columns.
 const GROUP: usize = 1 << 16;
 
-pub(super) struct ParquetEncoder<W: Write + Send> {
+pub(crate) struct ParquetEncoder<W: Write + Send> {
     inner: SerializedFileWriter<W>,
     pending: Table,
 }
 
 impl<W: Write + Send> ParquetEncoder<W> {
-    pub(super) fn new(stream: W, schema: &[Field]) -> Result<Self, ReportError> {
+    pub(crate) fn new(stream: W, schema: &[Field]) -> Result<Self, TableError> {
         let fields = schema.iter().map(|f| parquet_field(f).map(Arc::new)).collect::<Result<_, _>>()?;
         let root = Type::group_type_builder("schema").with_fields(fields).build()?;
         let units: serde_json::Map<_, _> =
@@ -37,12 +37,12 @@ impl<W: Write + Send> ParquetEncoder<W> {
         Ok(Self { inner, pending: Table::with_schema(schema)? })
     }
 
-    pub(super) fn write(&mut self, table: &Table) -> Result<(), ReportError> {
+    pub(crate) fn write(&mut self, table: &Table) -> Result<(), TableError> {
         self.pending.append(table)?;
         if self.pending.rows() >= GROUP { self.write_group() } else { Ok(()) }
     }
 
-    fn write_group(&mut self) -> Result<(), ReportError> {
+    fn write_group(&mut self) -> Result<(), TableError> {
         let mut group = self.inner.next_row_group()?;
         for column in self.pending.columns() {
             write_column(&mut group, &column.values)?;
@@ -52,7 +52,7 @@ impl<W: Write + Send> ParquetEncoder<W> {
         Ok(())
     }
 
-    pub(super) fn finish(mut self) -> Result<W, ReportError> {
+    pub(crate) fn finish(mut self) -> Result<W, TableError> {
         if self.pending.rows() > 0 {
             self.write_group()?;
         }
@@ -60,7 +60,7 @@ impl<W: Write + Send> ParquetEncoder<W> {
     }
 }
 
-fn parquet_field(field: &Field) -> Result<Type, ReportError> {
+fn parquet_field(field: &Field) -> Result<Type, TableError> {
     let (physical, logical) = match field.kind {
         Kind::Float => (Physical::DOUBLE, None),
         Kind::Integer => (Physical::INT64, Some(LogicalType::integer(64, true))),
@@ -76,9 +76,9 @@ fn parquet_field(field: &Field) -> Result<Type, ReportError> {
 fn write_column<W: Write + Send>(
     group: &mut SerializedRowGroupWriter<'_, W>,
     values: &Values,
-) -> Result<(), ReportError> {
+) -> Result<(), TableError> {
     let Some(mut column) = group.next_column()? else {
-        return Err(ReportError::Mismatch("more columns than the Parquet schema has".to_owned()));
+        return Err(TableError::Mismatch("more columns than the Parquet schema has".to_owned()));
     };
     match values {
         Values::Float(v) => {

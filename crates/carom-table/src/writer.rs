@@ -3,12 +3,12 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use super::csv::CsvEncoder;
-use super::json::JsonEncoder;
-use super::parquet::ParquetEncoder;
-use super::{Schema, Table, check_schema};
-use crate::ReportError;
+use crate::TableError;
+use crate::csv::CsvEncoder;
 use crate::file::{self, NewFile};
+use crate::json::JsonEncoder;
+use crate::parquet::ParquetEncoder;
+use crate::{Schema, Table, check_schema};
 
 /// A file format for tables.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,13 +25,13 @@ impl Format {
     /// The format told by a path's extension: `.csv`, `.parquet` or `.json`.
     ///
     /// # Errors
-    /// [`ReportError::UnknownExtension`], naming the known ones.
-    pub fn from_path(path: impl AsRef<Path>) -> Result<Self, ReportError> {
+    /// [`TableError::UnknownExtension`], naming the known ones.
+    pub fn from_path(path: impl AsRef<Path>) -> Result<Self, TableError> {
         match file::extension(path.as_ref()).as_str() {
             "csv" => Ok(Self::Csv),
             "parquet" => Ok(Self::Parquet),
             "json" => Ok(Self::Json),
-            _ => Err(ReportError::UnknownExtension {
+            _ => Err(TableError::UnknownExtension {
                 path: path.as_ref().to_path_buf(),
                 known: ".csv, .parquet and .json",
             }),
@@ -50,7 +50,7 @@ enum Encoder<W: Write + Send> {
 /// Nothing is at the target path until [`TableWriter::finish`]; a writer dropped before leaves no file.
 ///
 /// ```
-/// use carom_report::{Cell, Field, Table, TableWriter};
+/// use carom_table::{Cell, Field, Table, TableWriter};
 ///
 /// # let folder = tempfile::tempdir()?;
 /// # let path = folder.path().join("impacts.csv");
@@ -89,8 +89,8 @@ impl TableWriter<Target> {
     /// Starts a file in the format told by the path's extension.
     ///
     /// # Errors
-    /// [`ReportError::UnknownExtension`], [`ReportError::Mismatch`] for a name used twice, or what the file system says.
-    pub fn create(path: impl AsRef<Path>, schema: Schema) -> Result<Self, ReportError> {
+    /// [`TableError::UnknownExtension`], [`TableError::Mismatch`] for a name used twice, or what the file system says.
+    pub fn create(path: impl AsRef<Path>, schema: Schema) -> Result<Self, TableError> {
         let path = path.as_ref();
         let format = Format::from_path(path)?;
         let mut writer = Self::to_stream(Target(NewFile::create(path)?), format, schema).map_err(|e| e.at(path))?;
@@ -102,7 +102,7 @@ impl TableWriter<Target> {
     ///
     /// # Errors
     /// What the file system or the encoder says; no file is then left.
-    pub fn finish(self) -> Result<(), ReportError> {
+    pub fn finish(self) -> Result<(), TableError> {
         self.finish_stream()?.0.commit()
     }
 }
@@ -111,8 +111,8 @@ impl<W: Write + Send> TableWriter<W> {
     /// Starts a stream (standard output, a buffer) in a given format.
     ///
     /// # Errors
-    /// [`ReportError::Mismatch`] for a name used twice, or what the encoder says.
-    pub fn to_stream(stream: W, format: Format, schema: Schema) -> Result<Self, ReportError> {
+    /// [`TableError::Mismatch`] for a name used twice, or what the encoder says.
+    pub fn to_stream(stream: W, format: Format, schema: Schema) -> Result<Self, TableError> {
         Table::with_schema(&schema)?;
         let encoder = match format {
             Format::Csv => Encoder::Csv(Box::new(CsvEncoder::new(stream, &schema)?)),
@@ -125,8 +125,8 @@ impl<W: Write + Send> TableWriter<W> {
     /// Appends a table's rows.
     ///
     /// # Errors
-    /// [`ReportError::Mismatch`] where the table has another schema, or what the encoder says.
-    pub fn write(&mut self, table: &Table) -> Result<(), ReportError> {
+    /// [`TableError::Mismatch`] where the table has another schema, or what the encoder says.
+    pub fn write(&mut self, table: &Table) -> Result<(), TableError> {
         check_schema(&self.schema, table)?;
         let written = match &mut self.encoder {
             Encoder::Csv(e) => e.write(table),
@@ -140,7 +140,7 @@ impl<W: Write + Send> TableWriter<W> {
     ///
     /// # Errors
     /// What the encoder says.
-    pub fn finish_stream(self) -> Result<W, ReportError> {
+    pub fn finish_stream(self) -> Result<W, TableError> {
         let finished = match self.encoder {
             Encoder::Csv(e) => e.finish(),
             Encoder::Json(e) => e.finish(),
@@ -150,7 +150,7 @@ impl<W: Write + Send> TableWriter<W> {
     }
 }
 
-fn on_path(error: ReportError, path: Option<&Path>) -> ReportError {
+fn on_path(error: TableError, path: Option<&Path>) -> TableError {
     match path {
         Some(path) => error.at(path),
         None => error,

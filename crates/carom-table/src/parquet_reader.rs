@@ -7,31 +7,31 @@ use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
 use parquet::data_type::DataType;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 
-use super::{Field, Table, Values};
-use crate::ReportError;
+use crate::TableError;
+use crate::{Field, Table, Values};
 
-pub(super) struct ParquetDecoder {
+pub(crate) struct ParquetDecoder {
     inner: SerializedFileReader<File>,
     places: Vec<usize>,
     next: usize,
 }
 
 impl ParquetDecoder {
-    pub(super) fn new(file: File, schema: &[Field]) -> Result<Self, ReportError> {
+    pub(crate) fn new(file: File, schema: &[Field]) -> Result<Self, TableError> {
         let inner = SerializedFileReader::new(file)?;
         let columns = inner.metadata().file_metadata().schema_descr().columns();
         let place = |field: &Field| {
             columns
                 .iter()
                 .position(|c| c.name() == field.name)
-                .ok_or_else(|| ReportError::Mismatch(format!("there is no column \"{}\"", field.name)))
+                .ok_or_else(|| TableError::Mismatch(format!("there is no column \"{}\"", field.name)))
         };
         let places = schema.iter().map(place).collect::<Result<_, _>>()?;
         Ok(Self { inner, places, next: 0 })
     }
 
     /// The next row group that has rows.
-    pub(super) fn read(&mut self, batch: &mut Table) -> Result<(), ReportError> {
+    pub(crate) fn read(&mut self, batch: &mut Table) -> Result<(), TableError> {
         while batch.rows() == 0 && self.next < self.inner.num_row_groups() {
             let group = self.inner.get_row_group(self.next)?;
             let rows = usize::try_from(group.metadata().num_rows()).unwrap_or_default();
@@ -39,7 +39,7 @@ impl ParquetDecoder {
                 fill(group.get_column_reader(*place)?, rows, &mut column.values)
                     .map_err(|e| other_kind(e, &column.name))?;
                 if column.values.len() != rows {
-                    return Err(ReportError::Mismatch(format!("column \"{}\" is cut short", column.name)));
+                    return Err(TableError::Mismatch(format!("column \"{}\" is cut short", column.name)));
                 }
             }
             self.next += 1;
@@ -59,9 +59,9 @@ impl From<parquet::errors::ParquetError> for Problem {
     }
 }
 
-fn other_kind(problem: Problem, name: &str) -> ReportError {
+fn other_kind(problem: Problem, name: &str) -> TableError {
     match problem {
-        Problem::Kind => ReportError::Mismatch(format!("column \"{name}\" is of another kind")),
+        Problem::Kind => TableError::Mismatch(format!("column \"{name}\" is of another kind")),
         Problem::Parquet(e) => e.into(),
     }
 }

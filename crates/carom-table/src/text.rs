@@ -1,12 +1,12 @@
 //! Aligned text for a terminal. By hand: a table crate brings terminal control and wrapping, and all that is needed is padding.
 
-use super::{Column, Table, Values};
 use crate::number;
+use crate::{Column, Table, Values};
 
 /// What stands for a missing value.
 const MISSING: &str = "-";
 
-pub(super) fn render(table: &Table) -> String {
+pub(crate) fn render(table: &Table) -> String {
     let cells: Vec<Vec<String>> = table.columns().iter().map(column_cells).collect();
     let widths: Vec<usize> =
         cells.iter().map(|column| column.iter().map(|c| c.chars().count()).max().unwrap_or_default()).collect();
@@ -32,8 +32,8 @@ pub(super) fn render(table: &Table) -> String {
     out
 }
 
-/// The heading and then every row's text.
-pub(crate) fn column_cells(column: &Column) -> Vec<String> {
+/// The heading and then every row's text, as a person reads it.
+pub fn column_cells(column: &Column) -> Vec<String> {
     let missing = || MISSING.to_owned();
     let mut cells = vec![column.field().heading()];
     match &column.values {

@@ -3,7 +3,7 @@
 use std::fs;
 use std::io::{self, Write};
 
-use carom_report::{Cell, Column, Field, Format, ReportError, Table, TableReader, TableWriter, Values};
+use carom_table::{Cell, Column, Field, Format, Table, TableError, TableReader, TableWriter, Values};
 use parquet::basic::Compression;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field as Read;
@@ -175,7 +175,7 @@ fn a_missing_folder_is_an_error_with_the_path() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("no/such/out.csv");
     let error = sample().write(&path).unwrap_err();
-    assert!(matches!(error, ReportError::File { .. }), "{error:?}");
+    assert!(matches!(error, TableError::File { .. }), "{error:?}");
     assert!(error.to_string().contains("no/such/out.csv"), "{error}");
 }
 
@@ -201,7 +201,7 @@ fn a_stream_that_fails_is_an_error_in_every_format() {
 
 #[test]
 fn what_does_not_fit_together_is_refused() {
-    let message = |result: Result<Table, ReportError>| result.unwrap_err().to_string();
+    let message = |result: Result<Table, TableError>| result.unwrap_err().to_string();
     let short = Table::new([Column::float("a", "", [1.0, 2.0]), Column::float("b", "", [1.0])]);
     assert_eq!(message(short), "column \"b\" has 1 rows, \"a\" has 2");
     let twice = Table::new([Column::float("a", "", [1.0]), Column::float("a", "", [1.0])]);
