@@ -11,7 +11,7 @@
 mod problem;
 mod wording;
 
-pub(crate) use problem::Problem;
+pub(crate) use problem::{Problem, read_with};
 pub use wording::{Keys, Wording};
 
 use crate::spec::Key;
@@ -126,6 +126,14 @@ impl LawError {
         self.problem.value()
     }
 
+    /// The character and the reason where the text of a quantity cannot be read.
+    pub fn unit_error(&self) -> Option<&crate::units::UnitError> {
+        match &*self.problem {
+            Problem::WrongUnit { error, .. } => Some(error),
+            _ => None,
+        }
+    }
+
     /// The law's key whose value is to be marked in a text.
     pub(crate) fn blames(&self) -> Option<Key> {
         self.blamed.or_else(|| self.problem.blames())
@@ -195,8 +203,18 @@ impl LawError {
 #[cfg(feature = "toml")]
 impl From<toml::de::Error> for LawError {
     fn from(e: toml::de::Error) -> Self {
-        Self::new(e.message().trim().replace('\n', ", ")).at(e.span())
+        let message = e.message().trim().replace('\n', ", ");
+        unknown_key(&message).unwrap_or_else(|| Self::new(message)).at(e.span())
     }
+}
+
+/// serde's "unknown field `a`, expected one of `b`, `c`", said as everything else here is.
+#[cfg(feature = "toml")]
+fn unknown_key(message: &str) -> Option<LawError> {
+    let (wrong, expected) = message.strip_prefix("unknown field `")?.split_once('`')?;
+    let known: Vec<&str> = expected.split('`').skip(1).step_by(2).collect();
+    let near = did_you_mean(wrong, known.iter().copied()).map_or(String::new(), |n| format!("{n} "));
+    Some(LawError::new(format!("unknown key '{wrong}'")).help(format!("{near}known are {}", known.join(", "))))
 }
 
 /// The candidate nearest to what was written, if one is near: "did you mean ...?".

@@ -250,7 +250,8 @@ impl Problem {
                     .filter(|(missing, _)| *missing)
                     .map(|(_, key)| words.key(key.name()))
                     .collect();
-                format!("give {}, by name or with its properties", bodies.join(" and "))
+                let its = if bodies.len() > 1 { "their" } else { "its" };
+                format!("give {}, by name or with {its} properties", bodies.join(" and "))
             }
             Self::MissingProperty { property, instead, .. } => {
                 let own = format!("give its {} ({})", property.key(), property.symbol());
@@ -301,7 +302,7 @@ fn meant(near: Option<&str>) -> String {
 }
 
 /// `normal = "ea" or "eap", or with the loss adhesion-work`
-fn read_with(readers: &[Choice], words: &dyn Wording) -> String {
+pub(crate) fn read_with(readers: &[Choice], words: &dyn Wording) -> String {
     let (losses, others): (Vec<Choice>, Vec<Choice>) = readers.iter().partition(|r| matches!(r, Choice::Loss(_)));
     let mut groups: Vec<String> = Vec::new();
     for group in others.chunk_by(|a, b| a.key() == b.key()) {

@@ -2,12 +2,13 @@
 
 use super::keys::{LawBuilder, LawSpec};
 use super::uses::{ALWAYS, Choice, INSTEAD_OF};
-use super::{Key, NormalKind, NormalSpec, TangentialKind};
+use super::{CurveSpec, Key, NormalKind, NormalSpec, TangentialKind};
 use crate::error::{LawError, Problem};
 use crate::material::Library;
 use crate::normal::Loss;
 use crate::normal::empirical::Curve;
 use crate::pair::{Overrides, Pair};
+use crate::roughness::RoughnessModel;
 use crate::wall::WallLaw;
 
 impl WallLaw {
@@ -36,9 +37,23 @@ impl LawSpec {
     /// What is missing, impossible, idle or contradictory, with its place in the text the law was read from.
     pub fn compile(&self, library: &Library) -> Result<WallLaw, LawError> {
         self.to_builder(library)?.build().map_err(|e| {
-            let place = e.blames().and_then(|key| self.span(key)).or_else(|| self.span(Key::Normal));
-            e.at(place)
+            // a key that came from elsewhere than the text has no place in it
+            let key = e.blames().filter(|key| self.is_given(*key)).unwrap_or(Key::Normal);
+            e.at(self.span(key))
         })
+    }
+
+    /// Does the law, as far as it is written, read the key?
+    pub fn reads(&self, key: Key) -> bool {
+        let tangential = self.tangential.as_ref().map(|t| t.value);
+        let kind = tangential.unwrap_or(match self.tangential_restitution.as_ref().map(|r| &r.value) {
+            None => TangentialKind::Rolling,
+            Some(CurveSpec::Constant(_)) => TangentialKind::Constant,
+            Some(_) => TangentialKind::ByAngle,
+        });
+        let normal = self.normal.as_ref().map(|n| &n.value);
+        let model = self.roughness_model.as_ref().map(|m| m.value);
+        ALWAYS.contains(&key) || choices(normal, kind, self.roughness.is_some(), model).iter().any(|c| c.reads(key))
     }
 
     /// Whether the wall scatters: impacts then depend on their draws, and even a head-on one meets its facet obliquely.
@@ -101,18 +116,7 @@ impl LawBuilder {
 
     /// The parts of the law that read keys.
     fn choices(&self, normal: &NormalSpec) -> Vec<Choice> {
-        let mut choices = match normal {
-            NormalSpec::Named(kind) => vec![Choice::Normal(*kind)],
-            NormalSpec::Losses(losses) => losses.iter().map(|l| Choice::Loss(*l)).collect(),
-        };
-        choices.push(Choice::Tangential(self.tangential_kind()));
-        if self.roughness.is_some() && choices.iter().any(|c| c.reads(Key::Roughness)) {
-            choices.extend([
-                Choice::Given(Key::Roughness),
-                Choice::RoughnessModel(self.roughness_model.unwrap_or_default()),
-            ]);
-        }
-        choices
+        choices(Some(normal), self.tangential_kind(), self.roughness.is_some(), self.roughness_model)
     }
 
     /// A key that would silently do nothing, where its reader would expect it to act.
@@ -145,6 +149,25 @@ impl LawBuilder {
         let nothing = self.sphere.is_none() && self.surface.is_none() && overrides == Overrides::default();
         (!nothing).then(|| Pair::of(self.sphere.as_ref(), self.surface.as_ref(), &overrides))
     }
+}
+
+/// The parts of a law that read keys.
+fn choices(
+    normal: Option<&NormalSpec>,
+    tangential: TangentialKind,
+    roughness: bool,
+    model: Option<RoughnessModel>,
+) -> Vec<Choice> {
+    let mut choices = match normal {
+        None => Vec::new(),
+        Some(NormalSpec::Named(kind)) => vec![Choice::Normal(*kind)],
+        Some(NormalSpec::Losses(losses)) => losses.iter().map(|l| Choice::Loss(*l)).collect(),
+    };
+    choices.push(Choice::Tangential(tangential));
+    if roughness && choices.iter().any(|c| c.reads(Key::Roughness)) {
+        choices.extend([Choice::Given(Key::Roughness), Choice::RoughnessModel(model.unwrap_or_default())]);
+    }
+    choices
 }
 
 impl NormalSpec {

@@ -87,9 +87,11 @@ fn pieces(entries: &[Entry]) -> Result<Vec<(f64, f64, Vec<f64>)>, LawError> {
 impl CurveSpec {
     pub(super) fn from_value(key: Key, value: &Value) -> Result<Self, LawError> {
         match (value, value.number()) {
-            (Value::Text(text), _) => {
-                Ok(text.parse::<Number>().map_or_else(|_| Self::Named(text.clone()), |n| Self::Constant(n.0)))
-            }
+            (Value::Text(text), _) => match text.parse::<Number>() {
+                Ok(number) => Ok(Self::Constant(number.0)),
+                Err(error) if is_numeric(text) => Err(Problem::WrongUnit { key: key.name().to_owned(), error }.into()),
+                Err(_) => Ok(Self::Named(text.trim().to_owned())),
+            },
             (_, Some(number)) => Ok(Self::Constant(number)),
             (Value::Table(entries), _) => table(entries).map(Self::ByAngle),
             _ => {
@@ -107,6 +109,11 @@ impl CurveSpec {
             Self::Named(name) => named(name, key),
         }
     }
+}
+
+/// Is it meant to be a number?
+fn is_numeric(text: &str) -> bool {
+    text.trim().starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c)) || text.trim().parse::<f64>().is_ok()
 }
 
 /// A curve's values, within what a restitution may be: e in [0, 1], e_t in [−1, 1].

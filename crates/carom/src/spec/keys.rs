@@ -17,6 +17,7 @@
 //! Which laws read a key is declared in [`crate::spec::uses`].
 
 use super::range::Range;
+use super::uses::{Choice, INSTEAD_OF};
 use super::values::{At, CurvatureRadius};
 use super::written::{Built, Written};
 use super::{CurveSpec, NormalSpec, TangentialKind};
@@ -290,7 +291,7 @@ law_keys! {
     /// standard deviation of the roughness angle, up to 30 deg: each impact meets a facet tilted at random
     RoughnessAngle roughness_angle: Angle => f64 {
         symbol: "Δγ", noun: "a roughness angle", example: "5 deg", default: "0, smooth", group: SURFACES,
-        range: Range::within(0.0, scatter::LARGEST, "the standard deviation lies between 0 and 30 deg, such as 5 deg; a bare number in a law's text is in radians"),
+        range: Range::within(0.0, scatter::LARGEST, "the standard deviation lies between 0 and 30 deg, such as 5 deg"),
     }
     /// damping of the adhesion force
     AdhesionDamping adhesion_damping: InverseSpeed => f64 {
@@ -394,7 +395,54 @@ impl Key {
     }
 }
 
+impl Key {
+    /// Both ends of what may be drawn or fitted; ends that do not belong to the range are left out.
+    pub fn ends(self) -> (f64, f64) {
+        let Range { low, low_included, high, high_included, .. } = self.info().range;
+        let low = if low_included { low } else { low.next_up() };
+        let high = if high_included || high.is_infinite() { high } else { high.next_down() };
+        (self.info().search.map_or(low, |s| low.max(s.least)), high)
+    }
+}
+
+impl core::fmt::Display for Key {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// By name (`-` counts as `_`) or symbol.
+impl core::str::FromStr for Key {
+    type Err = LawError;
+    fn from_str(text: &str) -> Result<Self, LawError> {
+        let wanted = text.trim().replace('-', "_");
+        let by_symbol = || Self::ALL.iter().copied().find(|k| !k.info().symbol.is_empty() && k.info().symbol == wanted);
+        Self::by_name(&wanted).or_else(by_symbol).ok_or_else(|| super::values::unknown_name("key", text, Self::NAMES))
+    }
+}
+
+impl LawSpec {
+    /// Takes out what `key` would take the place of, such as the roughness where C_R is given.
+    pub fn make_room(&mut self, key: Key) {
+        for (one, other) in INSTEAD_OF {
+            let put_aside = if key == one {
+                other
+            } else if key == other {
+                one
+            } else {
+                continue;
+            };
+            self.remove(put_aside);
+            for idle in Key::ALL.iter().copied().filter(|k| Choice::only_beside(*k, put_aside)) {
+                self.remove(idle);
+            }
+        }
+    }
+}
+
 /// A number that lies outside its range.
 pub(crate) fn out_of_range(key: &str, value: f64, unit: &'static str, range: &Range) -> LawError {
+    // an angle is refused in degrees, as it is thought of
+    let (value, unit) = if unit == "rad" { ((value.to_degrees() * 1e6).round() / 1e6, "deg") } else { (value, unit) };
     Problem::OutOfRange { key: key.to_owned(), value: value.to_string(), unit, right: range.right.to_owned() }.into()
 }

@@ -138,9 +138,20 @@ impl Choice {
         }
     }
 
-    /// What reads `key`, a loss only where no law by name does more than list it.
+    /// What reads `key`.
     pub fn readers(key: Key) -> Vec<Self> {
         Self::all().filter(|c| c.reads(key)).collect()
+    }
+
+    /// Is `key` read only beside the key `other`?
+    pub(super) fn only_beside(key: Key, other: Key) -> bool {
+        let readers = Self::readers(key);
+        let beside = |c: &Self| match c {
+            Self::Given(given) => *given == other,
+            Self::RoughnessModel(_) => other == Key::Roughness,
+            _ => false,
+        };
+        !readers.is_empty() && readers.iter().all(beside)
     }
 
     /// Its name, as a value of its key.
@@ -161,6 +172,13 @@ impl Choice {
             Self::Given(key) => words.key(key.name()),
             other => words.setting(other.key().name(), other.name()),
         }
+    }
+}
+
+impl Key {
+    /// What reads it, in the words of a front: `normal = "ea" or "eap", or with the loss adhesion-work`.
+    pub fn read_with(self, words: &dyn Wording) -> String {
+        crate::error::read_with(&Choice::readers(self), words)
     }
 }
 

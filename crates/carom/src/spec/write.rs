@@ -1,6 +1,6 @@
 //! A law into its text form and into any serde format, and back. Quantities are bare SI numbers.
 
-use super::{At, CurvatureRadius, CurveSpec, LawSpec, NormalSpec, Value};
+use super::{At, CurvatureRadius, CurveSpec, Key, LawSpec, NormalSpec, Value};
 use crate::material::MaterialRef;
 use serde::de::{Deserialize, Deserializer, Error as _};
 use serde::{Serialize, Serializer};
@@ -44,14 +44,20 @@ impl<'de> Deserialize<'de> for LawSpec {
 impl<'de> Deserialize<'de> for CurveSpec {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let value = Value::deserialize(deserializer)?;
-        Self::from_value(super::Key::Restitution, &value).map_err(D::Error::custom)
+        Self::from_value(Key::Restitution, &value).map_err(D::Error::custom)
     }
 }
 
 impl<'de> Deserialize<'de> for CurvatureRadius {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         use super::written::Written as _;
-        Self::read(super::Key::SurfaceCurvature, &Value::deserialize(deserializer)?).map_err(D::Error::custom)
+        Self::read(Key::SurfaceCurvature, &Value::deserialize(deserializer)?).map_err(D::Error::custom)
+    }
+}
+
+impl Serialize for Key {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name())
     }
 }
 
