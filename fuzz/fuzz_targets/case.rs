@@ -4,10 +4,7 @@
 use carom::material::Library;
 use libfuzzer_sys::fuzz_target;
 use std::path::Path;
-use std::sync::LazyLock;
-
-static LIBRARY: LazyLock<Library> = LazyLock::new(Library::builtin);
 
 fuzz_target!(|text: &str| {
-    let _ = carom_track::Case::from_toml(text, Path::new("case.toml"), &LIBRARY);
+    let _ = carom_track::Case::from_toml(text, Path::new("case.toml"), Library::builtin());
 });

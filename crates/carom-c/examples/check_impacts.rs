@@ -61,7 +61,7 @@ fn law(text: &str) -> Result<(&str, WallLaw), String> {
     let (file, name) = place.rsplit_once(':').map_or((place, None), |(file, name)| (file, Some(name)));
     let toml = std::fs::read_to_string(file).map_err(|e| format!("{file}: {e}"))?;
     let spec = name.map_or_else(|| parse_only_law(&toml), |name| parse_named_law(&toml, name));
-    let law = spec.and_then(|spec| spec.compile(&Library::builtin())).map_err(|e| e.shown(file, &toml))?;
+    let law = spec.and_then(|spec| spec.compile(Library::builtin())).map_err(|e| e.shown(file, &toml))?;
     Ok((patch, law))
 }
 

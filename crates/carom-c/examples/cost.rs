@@ -17,7 +17,7 @@ hertz_damping = 0.007
 fn main() {
     let rounds: usize = std::env::args().nth(1).and_then(|a| a.parse().ok()).unwrap_or(1000);
     let spec = carom::spec::parse_law(WALL).unwrap_or_else(|e| panic!("{e}"));
-    let law = spec.compile(&Library::builtin()).unwrap_or_else(|e| panic!("{e}"));
+    let law = spec.compile(Library::builtin()).unwrap_or_else(|e| panic!("{e}"));
     let at = |i: usize, k: usize| ((i * 2_654_435_761 + k * 40_503 * (i % 97 + 1)) % 65_536) as f64 / 65_536.0;
     let ins: Vec<Impact> = (0..ROWS)
         .map(|i| {

@@ -3,7 +3,9 @@
 use crate::impact::{ImpactIn, ImpactOut, LEAST_IN, LEAST_OUT};
 use crate::law::Law;
 use crate::status::{Status, fail, guard};
-use carom::wall::NormalLaw;
+use carom::instructions::{Work, run_scalar};
+use carom::math::Fma;
+use carom::normal::NormalLaw;
 use carom::{Fate, Impact, ImpactError};
 use std::mem::size_of;
 
@@ -195,34 +197,33 @@ unsafe fn one(
     out: *mut ImpactOut,
     out_size: usize,
 ) -> Result<(), ImpactError> {
-    #[cfg(target_arch = "x86_64")]
-    if std::arch::is_x86_feature_detected!("fma") {
-        // SAFETY: the processor has the feature the function is compiled for, as was just asked; the rest as the caller promises.
-        return unsafe { one_fma(law, impact, in_size, out, out_size) };
-    }
-    // SAFETY: as the caller promises.
-    unsafe { one_inlined(law, impact, in_size, out, out_size) }
+    run_scalar(One { law, impact, in_size, out, out_size })
 }
 
-/// # Safety
-/// As [`one`].
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "fma")]
-unsafe fn one_fma(
-    law: &Law,
+/// An answer that goes straight to the caller's struct. Only [`one`] makes it, whose caller promises that the pointers are good.
+struct One<'a> {
+    law: &'a Law,
     impact: *const ImpactIn,
     in_size: usize,
     out: *mut ImpactOut,
     out_size: usize,
-) -> Result<(), ImpactError> {
-    // SAFETY: as the caller promises.
-    unsafe { one_inlined(law, impact, in_size, out, out_size) }
+}
+
+impl Work for One<'_> {
+    type Output = Result<(), ImpactError>;
+
+    #[inline(always)]
+    fn run<F: Fma, const LANES: usize>(self, f: F) -> Self::Output {
+        // SAFETY: as the caller of `one` promises.
+        unsafe { one_inlined(f, self.law, self.impact, self.in_size, self.out, self.out_size) }
+    }
 }
 
 /// # Safety
 /// As [`one`].
 #[inline(always)]
-unsafe fn one_inlined(
+unsafe fn one_inlined<F: Fma>(
+    f: F,
     law: &Law,
     impact: *const ImpactIn,
     in_size: usize,
@@ -231,7 +232,7 @@ unsafe fn one_inlined(
 ) -> Result<(), ImpactError> {
     // SAFETY: as the caller promises.
     let impact = unsafe { whole(impact, in_size) }.impact();
-    let answer = law.0.impact_inlined(&impact);
+    let answer = law.0.impact_on(f, &impact);
     let full = match &answer {
         Ok(outcome) => ImpactOut::of(outcome, out_size),
         Err(_) => ImpactOut::unmet(&impact, out_size),

@@ -3,6 +3,7 @@
 use crate::status::{Status, fail, guard};
 use carom::material::Library;
 use carom::spec::{parse_named_law, parse_only_law};
+use std::borrow::Cow;
 use std::ffi::{CStr, c_char};
 use std::path::Path;
 
@@ -133,9 +134,9 @@ fn file(path: &str) -> Result<String, Refusal> {
 }
 
 fn build(place: &str, toml: &str, name: Option<&str>, materials: Option<(&str, &str)>) -> Result<Law, Refusal> {
-    let mut library = Library::builtin();
+    let mut library = Cow::Borrowed(Library::builtin());
     if let Some((place, text)) = materials {
-        library.extend_from_toml(text).map_err(|e| (Status::BadLaw, e.shown(place, text)))?;
+        library.to_mut().extend_from_toml(text).map_err(|e| (Status::BadLaw, e.shown(place, text)))?;
     }
     name.map_or_else(|| parse_only_law(toml), |name| parse_named_law(toml, name))
         .and_then(|spec| spec.compile(&library))

@@ -9,7 +9,7 @@ use std::ptr::{null, null_mut};
 /// The same law from the core.
 fn core_law(name: &str) -> carom::WallLaw {
     let spec = carom::spec::parse_named_law(WALLS, name).expect("a law");
-    spec.compile(&carom::material::Library::builtin()).expect("it compiles")
+    spec.compile(carom::material::Library::builtin()).expect("it compiles")
 }
 
 /// The same impact for the core.

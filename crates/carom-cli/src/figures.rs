@@ -3,7 +3,7 @@
 use crate::failure::Failure;
 use crate::text::{Lines, number, quantity, scaled};
 use carom::WallLaw;
-use carom::wall::NormalLaw;
+use carom::normal::NormalLaw;
 
 /// Window of rebound, yield velocity, adhesion numbers, contact constants. Keys as in the JSON.
 #[derive(serde::Serialize)]
@@ -55,7 +55,7 @@ impl Figures {
             rebounds: window.is_some(),
             yield_velocity: wall.yield_velocity(diameter, None).map_err(refused)?,
             el_batsh_capture_velocity: wall.el_batsh_capture_velocity(diameter),
-            plastic_ends_it: matches!(wall.normal(), NormalLaw::Ledger(l) if l.plastic_can_exhaust()),
+            plastic_ends_it: matches!(wall.normal(), NormalLaw::Ledger(l) if l.terms().any(|t| t.loss() == carom::normal::Loss::PlasticBons)),
             roughness_factor: wall.roughness_factor(),
             adhesion_numbers: numbers.map(|n| AdhesionNumbers {
                 tabor: n.tabor,

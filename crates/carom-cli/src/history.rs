@@ -4,10 +4,9 @@ use crate::failure::Failure;
 use crate::law::Law;
 use crate::motion::Motion;
 use crate::text::{plotted, quantity};
-use carom::normal::Size;
+use carom::normal::{NormalLaw, Size};
 use carom::resolved::{Moment, Scales};
 use carom::tangential::Tangential;
-use carom::wall::NormalLaw;
 use carom_report::{Axis, Column, Plot, Series, Table};
 
 /// Moments in each integration step: enough for a smooth line.
@@ -30,7 +29,7 @@ pub fn moments(law: &Law, motion: &Motion) -> Result<Vec<Moment>, Failure> {
                 "--history follows the slip with rolling alone (Eqs 26-28): write --tangential rolling",
             ));
         }
-        Tangential::Restitution(_) => 0.0,
+        _ => 0.0,
     };
     let (normal, tangential) = motion.components();
     Ok(resolved.history(normal, &size, &scales, tangential - radius * motion.spin, friction, PER_STEP))

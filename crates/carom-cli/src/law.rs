@@ -28,7 +28,7 @@ pub struct MaterialsArgs {
 impl MaterialsArgs {
     /// The library with the user's materials added.
     pub fn library(&self) -> Result<Library, Failure> {
-        let mut library = Library::builtin();
+        let mut library = Library::builtin().clone();
         for path in &self.materials {
             let text = output::read(path)?;
             library.extend_from_toml(&text).map_err(|e| Failure::in_file(e, &path.display().to_string(), &text))?;
@@ -88,6 +88,8 @@ pub struct Population<'a> {
     spec: LawSpec,
     source: Option<Source>,
     has_friction: bool,
+    /// Whether impacts slip along the wall, so that the law needs friction.
+    slips: bool,
 }
 
 impl Population<'_> {
@@ -112,7 +114,13 @@ impl Population<'_> {
     }
 
     fn compile(&self, spec: &LawSpec) -> Result<WallLaw, Failure> {
-        spec.compile(&self.library).map_err(|e| self.args.explain(e, self.source.as_ref()))
+        let compiled = spec.compile(&self.library).and_then(|wall| {
+            if self.slips {
+                wall.require_friction()?;
+            }
+            Ok(wall)
+        });
+        compiled.map_err(|e| self.args.explain(e, self.source.as_ref()))
     }
 }
 
@@ -191,10 +199,8 @@ impl LawArgs {
         let (mut spec, source) = self.spec()?;
         complete(&mut spec);
         let has_friction = spec.friction.is_some() || self.given.contains_key(&Key::Friction);
-        if !oblique && !spec.scatters() && !has_friction && spec.reads(Key::Friction) {
-            spec.set_number(Key::Friction, 0.0);
-        }
-        Ok(Population { args: self, library, spec, source, has_friction })
+        let slips = oblique || spec.scatters();
+        Ok(Population { args: self, library, spec, source, has_friction, slips })
     }
 
     /// Name of the law in its file, if it comes from one.

@@ -21,7 +21,8 @@ A file of your own holds tables such as
   young_modulus = { value = \"210 GPa\", source = \"data sheet\" }
   poisson_ratio = 0.3
   surface_energy = \"1.1 J/m2\"
-  yield_strength = \"310 MPa\"";
+  yield_strength = \"310 MPa\"
+  hardness = \"1.3 GPa\"";
 
 /// The materials known, or one of them with every value, range and source
 #[derive(clap::Args)]
@@ -60,6 +61,8 @@ struct Entry<'a> {
     poisson_ratio: Option<f64>,
     surface_energy: Option<f64>,
     yield_strength: Option<f64>,
+    hardness: Option<f64>,
+    tensile_strength: Option<f64>,
     note: Option<&'a str>,
     properties: Vec<Value<'a>>,
 }
@@ -97,6 +100,8 @@ impl<'a> From<&'a Material> for Entry<'a> {
             poisson_ratio: m.poisson_ratio,
             surface_energy: m.surface_energy,
             yield_strength: m.yield_strength,
+            hardness: m.hardness,
+            tensile_strength: m.tensile_strength,
             note: m.note.as_deref(),
             properties: m.properties.iter().map(|(kind, p)| value(*kind, p)).collect(),
         }
@@ -138,6 +143,7 @@ fn list(materials: Vec<&Material>) -> Result<String, Failure> {
         column("nu", "", 1.0, |m| m.poisson_ratio),
         column("gamma", "J/m2", 1.0, |m| m.surface_energy),
         column("sigma", "MPa", 1e6, |m| m.yield_strength),
+        column("H", "GPa", 1e9, |m| m.hardness),
         Column::text("also", materials.iter().map(|m| m.aliases.first().map_or("", String::as_str))),
     ])?;
     Ok(table.to_text())
@@ -146,8 +152,8 @@ fn list(materials: Vec<&Material>) -> Result<String, Failure> {
 /// A value in the unit people use: GPa for moduli, MPa for strengths, else SI.
 fn shown(kind: PropertyKind, value: f64) -> String {
     match kind {
-        PropertyKind::YoungModulus => format!("{} GPa", number(value / 1e9)),
-        PropertyKind::YieldStrength => format!("{} MPa", number(value / 1e6)),
+        PropertyKind::YoungModulus | PropertyKind::Hardness => format!("{} GPa", number(value / 1e9)),
+        PropertyKind::YieldStrength | PropertyKind::TensileStrength => format!("{} MPa", number(value / 1e6)),
         _ => format!("{} {}", number(value), kind.unit()).trim_end().to_owned(),
     }
 }
@@ -181,7 +187,7 @@ fn tell(material: &Material) -> String {
     }
     for (kind, property) in &material.properties {
         let name = kind.key().replace('_', " ");
-        let _ = writeln!(text, "\n{name:16}{}", range(*kind, Some(property.value), property.low, property.high));
+        let _ = writeln!(text, "\n{name:15} {}", range(*kind, Some(property.value), property.low, property.high));
         let mut line = |label: &str, content: &Option<String>| {
             if let Some(content) = content {
                 let _ = writeln!(text, "  {label:14}{}", wrapped(content, 100, 16));
@@ -198,19 +204,24 @@ fn tell(material: &Material) -> String {
             line("other", &Some(other));
         }
     }
-    let missing: Vec<String> = [
-        (PropertyKind::Density, material.density),
-        (PropertyKind::YoungModulus, material.young_modulus),
-        (PropertyKind::PoissonRatio, material.poisson_ratio),
-        (PropertyKind::SurfaceEnergy, material.surface_energy),
-        (PropertyKind::YieldStrength, material.yield_strength),
-    ]
-    .into_iter()
-    .filter(|(_, v)| v.is_none())
-    .map(|(k, _)| k.key().replace('_', " "))
-    .collect();
+    let missing: Vec<String> = PropertyKind::ALL
+        .iter()
+        .copied()
+        .filter(|kind| material.value(*kind).is_none() && asked_for(*kind, material))
+        .map(|kind| kind.key().replace('_', " "))
+        .collect();
     if !missing.is_empty() {
         let _ = writeln!(text, "\nnot known: {}", missing.join(", "));
     }
     text
+}
+
+/// May a law ask for it? A tensile strength no law reads, and of yield strength and hardness one is enough.
+fn asked_for(kind: PropertyKind, material: &Material) -> bool {
+    match kind {
+        PropertyKind::TensileStrength => false,
+        PropertyKind::YieldStrength => material.hardness.is_none(),
+        PropertyKind::Hardness => material.yield_strength.is_none(),
+        _ => true,
+    }
 }

@@ -163,6 +163,7 @@ pub fn refused(error: ImpactError, motion: &Motion) -> Failure {
         ImpactError::Curvature | ImpactError::Diameter => format!("--diameter {}", scaled(diameter, "m")),
         ImpactError::NotFinite => format!("--speed {speed}, --spin {spin}"),
         ImpactError::Density => "the sphere's density".to_owned(),
+        ImpactError::FrictionNotGiven => "an oblique impact needs --friction".to_owned(),
     };
     Failure::input(format!("{what}: {error}"))
 }

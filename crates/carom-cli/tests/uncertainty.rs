@@ -31,7 +31,7 @@ fn column(rows: &[Value], name: &str) -> Vec<f64> {
 fn sticking_is_the_share_of_spheres_below_the_critical_diameter() {
     const SAMPLES: f64 = 4000.0;
     let law = carom::spec::parse_law("sphere = \"copper\"\nsurface = \"silicon\"\nnormal = \"ea\"\nfriction = 0\n");
-    let law = law.and_then(|l| l.compile(&Library::builtin())).expect("a law");
+    let law = law.and_then(|l| l.compile(Library::builtin())).expect("a law");
     let critical = |speed: f64| {
         let (mut low, mut high) = (1e-7f64, 1e-2f64);
         for _ in 0..100 {

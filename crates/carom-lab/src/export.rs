@@ -13,7 +13,7 @@
 //! ```
 //! use carom_lab::export::{Range, Request, Span, Target, export};
 //! let law = carom::spec::parse_law("normal = \"constant\"\nrestitution = 0.7\ntangential_restitution = 0.9\n")?;
-//! let wall = law.compile(&carom::material::Library::builtin())?;
+//! let wall = law.compile(carom::material::Library::builtin())?;
 //! let range = Range { diameters: Span::new(1e-5, 1e-4), speeds: Span::new(0.1, 30.0), angles: Span::new(5.0, 90.0) };
 //! let request = Request { law: &wall, title: "constant", range, bins: 1, speed_bins: 1 };
 //! let text = export(&request, &Target::OpenFoam { patch: "walls" }).expect("it answers");

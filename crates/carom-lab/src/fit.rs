@@ -8,7 +8,7 @@
 //! let csv = "speed,restitution\n0.1,0.805\n0.3,0.926\n1,0.970\n3,0.978\n10,0.964\n20,0.934\n";
 //! let data = Data::from_csv("steel.csv", csv, Some(70e-6))?;
 //! let free = [Key::RoughnessFactor, Key::HertzDamping].map(Free::new);
-//! let found = fit(&law, &free, &data, &Library::builtin(), &Options::default())?;
+//! let found = fit(&law, &free, &data, Library::builtin(), &Options::default())?;
 //! assert!((found.parameters[0].value - 0.15).abs() < 0.01 && (found.parameters[1].value - 0.007).abs() < 0.0003);
 //! assert!(found.law.to_toml("steel")?.contains("roughness_factor = 0.1"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())

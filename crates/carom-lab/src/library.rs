@@ -7,7 +7,7 @@ use std::path::Path;
 
 macro_rules! experiments {
     ($($name:literal),* $(,)?) => {
-        const BUILTIN: &[(&str, &str)] = &[$(($name, include_str!(concat!("../../../data/experiments/", $name, ".toml")))),*];
+        const BUILTIN: &[(&str, &str)] = &[$(($name, include_str!(concat!("../data/experiments/", $name, ".toml")))),*];
     };
 }
 

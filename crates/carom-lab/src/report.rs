@@ -287,7 +287,7 @@ fn table_2(report: &mut Report, v: &Validation) -> Result<(), LabError> {
             ),
             Column::text("note", rows.iter().map(|r| r.note.as_str())),
         ])?,
-        "data/materials/kim-dunn-2007-pairs.toml against what the library's materials give: those of the paper's Table 1, and crystalline quartz of powders.toml.",
+        "Table 2 of Kim & Dunn (2007) against what the library's materials give: those of the paper's Table 1, and crystalline quartz of powders.toml.",
     );
     Ok(())
 }

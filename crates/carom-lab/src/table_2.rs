@@ -8,7 +8,7 @@ use carom::pair::{Overrides, Pair};
 use carom::units::{Pressure, SurfaceEnergy};
 use serde::{Deserialize, Serialize};
 
-const TEXT: &str = include_str!("../../../data/materials/kim-dunn-2007-pairs.toml");
+const TEXT: &str = include_str!("../data/kim-dunn-2007-pairs.toml");
 
 #[derive(Deserialize)]
 struct File {

@@ -11,8 +11,8 @@ use carom_track::tracker::Particle;
 use serde::Serialize;
 use std::path::Path;
 
-const DROPPED: &str = include_str!("../../../examples/wind-tunnel.toml");
-const THROWN: &str = include_str!("../../../examples/wind-tunnel-upward.toml");
+const DROPPED: &str = include_str!("../data/cases/wind-tunnel.toml");
+const THROWN: &str = include_str!("../data/cases/wind-tunnel-upward.toml");
 
 /// The elastic walls that Fig. 12 compares with: e = 1, tangentially too.
 const ELASTIC: &str = "normal = \"constant\"\nrestitution = 1.0\ntangential_restitution = 1.0\n";

@@ -74,7 +74,7 @@ pub struct Validation {
 ///
 /// ```
 /// use carom::material::Library;
-/// let found = carom_lab::validate(carom_lab::builtin()?, &Library::builtin())?;
+/// let found = carom_lab::validate(carom_lab::builtin()?, Library::builtin())?;
 /// let micro_slip = found.comparisons.iter().find(|c| c.curve == "micro-slip").expect("it is there");
 /// assert!(micro_slip.greatest < 0.035);
 /// # Ok::<(), carom_lab::LabError>(())

@@ -5,7 +5,7 @@ use carom_lab::experiment::Tier;
 use carom_lab::{Validation, builtin, validate};
 
 fn found() -> Validation {
-    validate(builtin().expect("they come along"), &Library::builtin()).expect("it computes")
+    validate(builtin().expect("they come along"), Library::builtin()).expect("it computes")
 }
 
 /// Experiment, curve, tier, greatest deviation to four digits.

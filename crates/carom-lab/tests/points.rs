@@ -19,7 +19,7 @@ fn a_file_beside_an_experiment_is_all_it_takes() {
     copy("li-2000", folder.path());
     let csv = "# made up, to test the file's reading\npanel, speed, restitution, sigma\nrestitution, 1.0, 0.95, 0.01\nrestitution, 5, 0.9, 0.02\n";
     std::fs::write(folder.path().join("li-2000.csv"), csv).expect("a file");
-    let found = validate(from_folder(folder.path()).expect("it reads"), &Library::builtin()).expect("it computes");
+    let found = validate(from_folder(folder.path()).expect("it reads"), Library::builtin()).expect("it computes");
     let damped = found.comparisons.iter().find(|c| c.law == "damped").expect("a comparison");
     assert_eq!((damped.tier, damped.points.len()), (Tier::Measured, 2));
     // 0.9329 and 0.9259 are the model's with K from the moduli, which the printed K = 127.8 GPa rounds
@@ -35,7 +35,7 @@ fn a_file_beside_an_experiment_is_all_it_takes() {
 fn an_area_is_off_by_the_distance_from_its_nearer_end() {
     let mut one = experiment("dahneke-1975");
     points::add(&mut one, "d.csv", "speed,restitution\n20,0.75\n20,0.95\n20,0.1\n").expect("points");
-    let found = validate(vec![one], &Library::builtin()).expect("it computes");
+    let found = validate(vec![one], Library::builtin()).expect("it computes");
     let [inside, above, below] = &found.comparisons[0].points[..] else { panic!("three points") };
     assert_eq!(inside.deviation, 0.0);
     assert!(above.deviation < 0.0 && below.deviation > 0.0);
@@ -51,7 +51,7 @@ fn an_area_is_off_by_the_distance_from_its_nearer_end() {
 fn oblique_points_lie_at_their_normal_speed() {
     let mut one = experiment("dahneke-1975");
     points::add(&mut one, "d.csv", "speed,angle,restitution\n20,30,0.6\n").expect("points");
-    let found = validate(vec![one], &Library::builtin()).expect("it computes");
+    let found = validate(vec![one], Library::builtin()).expect("it computes");
     assert!((found.comparisons[0].points[0].at - 10.0).abs() < 1e-12);
 }
 
@@ -61,11 +61,11 @@ fn diameters_choose_the_curve() {
     let csv =
         "speed,restitution,diameter,panel\n10,0.8,3.44e-6,silicon\n10,0.8,4.9e-6,silicon\n10,0.8,4.9e-6,silicon\n";
     points::add(&mut one, "w.csv", csv).expect("points");
-    let found = validate(vec![one.clone()], &Library::builtin()).expect("it computes");
+    let found = validate(vec![one.clone()], Library::builtin()).expect("it computes");
     let counts: Vec<_> = found.comparisons.iter().map(|c| (c.diameter, c.points.len())).collect();
     assert_eq!(counts, [(3.44e-6, 1), (4.9e-6, 2)]);
     points::add(&mut one, "w.csv", "speed,restitution,diameter,panel\n10,0.8,9e-6,silicon\n").expect("points");
-    let error = validate(vec![one], &Library::builtin()).expect_err("no such curve").to_string();
+    let error = validate(vec![one], Library::builtin()).expect_err("no such curve").to_string();
     assert!(error.contains("w.csv") && error.contains("no curve for a diameter of 9e-6 m"), "{error}");
 }
 
@@ -126,7 +126,7 @@ fn mistakes_in_an_experiment_point_at_the_line() {
         ),
         (format!("{head}{panel}[[panel.measured]]\nspeed = [1]\nvalue = [0.5]\n"), "without a source"),
     ] {
-        let got = Experiment::from_toml("x", &text).and_then(|e| validate(vec![e], &Library::builtin()));
+        let got = Experiment::from_toml("x", &text).and_then(|e| validate(vec![e], Library::builtin()));
         let error = got.expect_err("it is wrong").to_string();
         assert!(error.contains(wanted), "{error}");
     }
@@ -138,7 +138,7 @@ fn a_model_without_a_value_is_no_agreement() {
     let mut one = experiment("li-2000");
     let csv = "panel,speed,angle,impulse_ratio\nimpulse-ratio,0.01,80,0.1\nimpulse-ratio,5,80,0.1\n";
     points::add(&mut one, "l.csv", csv).expect("points");
-    let found = validate(vec![one], &Library::builtin()).expect("it computes");
+    let found = validate(vec![one], Library::builtin()).expect("it computes");
     assert!(found.comparisons.iter().all(|c| c.greatest.is_nan()), "{:?}", found.comparisons);
 }
 

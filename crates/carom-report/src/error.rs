@@ -19,6 +19,7 @@ pub enum ReportError {
     },
 }
 
+#[cfg(feature = "png")]
 impl ReportError {
     pub(crate) fn draw(what: &str, reason: impl ToString) -> Self {
         Self::Draw { what: what.to_owned(), reason: reason.to_string() }

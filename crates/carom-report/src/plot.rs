@@ -15,12 +15,13 @@
 //! # Ok::<(), carom_report::ReportError>(())
 //! ```
 //!
-//! Plots are drawn by plotters' SVG backend; PNG is the same SVG through resvg with DejaVu Sans from inside the crate,
-//! so neither depends on what fonts a machine has. The same plot gives the same bytes.
+//! A plot is laid out once, with the widths of DejaVu Sans from inside the crate, and written as SVG or, with feature `png`, as pixels
+//! with letters of that font, so neither depends on what fonts a machine has. The same plot gives the same bytes.
 
 use std::path::Path;
 
 use crate::ReportError;
+use canvas::Canvas;
 use carom_table::{TableError, file};
 
 mod axis;
@@ -33,10 +34,12 @@ mod frame;
 mod heat_map;
 mod legend;
 mod occupied;
+#[cfg(feature = "png")]
 mod png;
 mod reference;
 mod scaled;
 mod series;
+mod svg;
 mod ticks;
 
 pub use axis::{Axis, Scale};
@@ -147,15 +150,16 @@ impl Plot {
     /// # Errors
     /// [`TableError::Mismatch`] where a series' arrays differ in length.
     pub fn svg(&self) -> Result<String, ReportError> {
-        draw::plot(self)
+        Ok(svg::document(&draw::plot(self)?))
     }
 
     /// The plot as PNG bytes, two pixels for each CSS pixel.
     ///
     /// # Errors
     /// As for [`Plot::svg`].
+    #[cfg(feature = "png")]
     pub fn png(&self) -> Result<Vec<u8>, ReportError> {
-        png::encode(&self.svg()?)
+        png::encode(&draw::plot(self)?)
     }
 
     /// Writes the plot to `path` as SVG or PNG, told by its extension.
@@ -165,7 +169,7 @@ impl Plot {
     pub fn write(&self, path: impl AsRef<Path>) -> Result<(), ReportError> {
         let path = path.as_ref();
         let format = ImageFormat::from_path(path)?;
-        write_image(path, format, &self.svg()?)
+        write_image(path, format, &draw::plot(self)?)
     }
 }
 
@@ -182,19 +186,24 @@ impl ImageFormat {
     /// The format told by a path's extension: `.svg` or `.png`; lets a command refuse a path before it computes.
     ///
     /// # Errors
-    /// [`TableError::UnknownExtension`], naming the known ones.
+    /// [`TableError::UnknownExtension`], naming the known ones; [`TableError::Feature`] where this build writes no PNG.
     pub fn from_path(path: impl AsRef<Path>) -> Result<Self, ReportError> {
+        let given = || path.as_ref().to_path_buf();
         match file::extension(path.as_ref()).as_str() {
             "svg" => Ok(Self::Svg),
-            "png" => Ok(Self::Png),
-            _ => Err(TableError::UnknownExtension { path: path.as_ref().to_path_buf(), known: ".svg and .png" }.into()),
+            "png" if cfg!(feature = "png") => Ok(Self::Png),
+            "png" => Err(TableError::Feature { path: given(), format: "PNG", feature: "png" }.into()),
+            _ => Err(TableError::UnknownExtension { path: given(), known: ".svg and .png" }.into()),
         }
     }
 }
 
-fn write_image(path: &Path, format: ImageFormat, svg: &str) -> Result<(), ReportError> {
+fn write_image(path: &Path, format: ImageFormat, canvas: &Canvas) -> Result<(), ReportError> {
     match format {
-        ImageFormat::Svg => Ok(file::write_whole(path, svg.as_bytes())?),
-        ImageFormat::Png => Ok(file::write_whole(path, &png::encode(svg)?)?),
+        ImageFormat::Svg => Ok(file::write_whole(path, svg::document(canvas).as_bytes())?),
+        #[cfg(feature = "png")]
+        ImageFormat::Png => Ok(file::write_whole(path, &png::encode(canvas)?)?),
+        #[cfg(not(feature = "png"))]
+        ImageFormat::Png => Err(TableError::Feature { path: path.to_path_buf(), format: "PNG", feature: "png" }.into()),
     }
 }

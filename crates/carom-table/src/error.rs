@@ -15,6 +15,16 @@ pub enum TableError {
         /// The known extensions, for the message.
         known: &'static str,
     },
+    /// The format is known, but this build was made without it.
+    #[error("{path}: this build writes no {format}; build it with the feature `{feature}`", path = .path.display())]
+    Feature {
+        /// The path as given.
+        path: PathBuf,
+        /// The format.
+        format: &'static str,
+        /// The feature that brings it.
+        feature: &'static str,
+    },
     /// The file could not be created, written or renamed.
     #[error("{path}: {source}", path = .path.display())]
     File {

@@ -2,7 +2,7 @@
 //!
 //! Reported per particle; a fiftieth of it is the time per particle and millisecond.
 
-use carom_track::domain::{Analytic, ContactAt, Wall};
+use carom_track::domain::{AnyDomain, ContactAt, Wall};
 use carom_track::dynamics::Dynamics;
 use carom_track::flow::{Flow, Fluid};
 use carom_track::force::{Drag, Forces};
@@ -55,9 +55,9 @@ fn particle(number: u64) -> Particle {
 fn closed_box(c: &mut Criterion) {
     let room = Shape::Room(Room { min: [0.0; 3], max: [0.02; 3] });
     let wall = Wall { name: "box".into(), shape: room, contact_at: ContactAt::Surface, velocity: [0.0; 3] };
-    let domain = Analytic::new(Flow::Still, vec![wall]);
+    let domain = AnyDomain::new(Flow::Still, vec![wall]);
     let law = "normal = \"constant\"\nrestitution = 0.95\ntangential = \"constant\"\ntangential_restitution = 0.95\n";
-    let law = carom::spec::parse_law(law).expect("a law").compile(&carom::material::Library::builtin()).expect("a law");
+    let law = carom::spec::parse_law(law).expect("a law").compile(carom::material::Library::builtin()).expect("a law");
     let behaviors = [Behavior::Law(vec![law])];
     let forces = Forces { drag: Drag::SchillerNaumann, ..Forces::default() };
     let dynamics = Dynamics { fluid: Fluid::default(), forces, random_walk: None, brownian: false };

@@ -14,7 +14,7 @@ mod wall;
 pub use injection::Injected;
 
 use crate::deposition::{Bins, Region};
-use crate::domain::{Analytic, Wall};
+use crate::domain::{AnyDomain, Wall};
 use crate::dynamics::Dynamics;
 use crate::injection::Start;
 use crate::tables::TableFormat;
@@ -37,7 +37,7 @@ pub struct Case {
     /// The file it came from.
     pub name: PathBuf,
     /// Flow and walls.
-    pub domain: Analytic,
+    pub domain: AnyDomain,
     /// What acts on the spheres.
     pub dynamics: Dynamics,
     /// What each wall does.
@@ -116,7 +116,7 @@ impl Case {
         Ok(Self {
             title: read.title.unwrap_or_default(),
             name: name.to_owned(),
-            domain: Analytic::new(flow, walls),
+            domain: AnyDomain::new(flow, walls),
             dynamics,
             behaviors,
             injections,
@@ -138,18 +138,18 @@ impl Case {
     }
 
     /// The tracker of this case.
-    pub fn tracker(&self) -> Tracker<'_, Analytic> {
+    pub fn tracker(&self) -> Tracker<'_> {
         Tracker { domain: &self.domain, dynamics: &self.dynamics, behaviors: &self.behaviors, settings: self.settings }
     }
 
     /// The particle of a number below [`Case::count`].
     pub fn particle(&self, number: u64) -> Option<Particle> {
-        use crate::domain::Domain;
         let mut first = 0;
         for (index, injected) in self.injections.iter().enumerate() {
             let count = injected.injection.count();
             if number < first + count {
-                let start = injected.injection.particle(number - first, |x| self.domain.fluid(x).velocity);
+                let fluid = |time, x| self.domain.fluid(time, x).velocity;
+                let start = injected.injection.particle(number - first, fluid);
                 return Some(Particle::new(number, index, &start));
             }
             first += count;
@@ -200,7 +200,7 @@ fn sampled_starts(walls: &[Wall], injections: &[Injected], behaviors: &[Behavior
     const SAMPLE: u64 = 1000;
     for (index, injected) in injections.iter().enumerate() {
         for i in 0..injected.injection.count().min(SAMPLE) {
-            let start = injected.injection.particle(i, |_| [0.0; 3]);
+            let start = injected.injection.particle(i, |_, _| [0.0; 3]);
             for (wall, behavior) in walls.iter().zip(behaviors) {
                 let reach = 0.5 * start.diameter;
                 if wall.shape.distance(start.position) - wall.clearance(reach) < -1e-9 * reach {

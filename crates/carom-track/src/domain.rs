@@ -1,40 +1,88 @@
-//! What the tracker asks of the space it tracks in: what the fluid is like, and where a path next meets a wall.
+//! What the tracker asks of the space it tracks in: what the fluid is like here and now, and what comes first on a path.
 
-use crate::flow::{Flow, Local};
+#![allow(clippy::needless_range_loop, reason = "one index runs through several arrays of lanes or components")]
+
+use crate::flow::{Exit, Flow, Local, Piece};
 use crate::geometry::{Ahead, Path, Walls};
 pub use crate::geometry::{ContactAt, Hit, Wall};
 use crate::integrate::{Lanes, Lanes3};
-use crate::vector::Vec3;
+use crate::lanes::{Mask, mask};
+use crate::vector::{Vec3, dot, norm};
+use std::fmt::Debug;
 
-/// A space with a fluid and walls. A CFD mesh can be one too.
+/// A space with a fluid and walls, made of pieces in each of which the flow is smooth: cells, layers, a jet's inside.
+///
+/// A sphere keeps its piece ([`Domain::Here`]) between calls. Its fluid is asked by the piece's formula, which goes on smoothly
+/// beyond the piece's edges: a trial step may reach there before it is cut at what [`Domain::first`] says comes first.
 pub trait Domain: Sync {
-    /// Everything known of the fluid at a point.
-    fn fluid(&self, x: Vec3) -> Local;
+    /// The piece a sphere is in: a cell, a layer.
+    type Here: Copy + Send + Sync + Debug;
 
-    /// The fluid's velocity at `W` points, m/s.
-    fn velocities<const W: usize>(&self, x: &Lanes3<W>) -> Lanes3<W>;
+    /// The piece of spheres that have none yet.
+    const NOWHERE: Self::Here;
 
-    /// Whether the fluid moves alike everywhere.
+    /// The piece of a point at a time (s).
+    fn enter(&self, time: f64, x: Vec3) -> Self::Here;
+
+    /// Everything known of the fluid at a time and point.
+    fn fluid(&self, here: Self::Here, time: f64, x: Vec3) -> Local;
+
+    /// The fluid's velocity at `W` times and points, m/s.
+    fn velocities<const W: usize>(&self, here: &[Self::Here; W], time: &Lanes<W>, x: &Lanes3<W>) -> Lanes3<W>;
+
+    /// Whether the fluid moves alike everywhere and always.
     fn is_uniform(&self) -> bool {
         false
     }
 
-    /// Where the centre of a sphere of that radius, on that path, first touches a wall.
-    fn next_wall(&self, path: &Path, radius: f64) -> Option<Hit>;
+    /// Whether there is one piece only, and no step too long for it.
+    fn is_one_piece(&self) -> bool {
+        false
+    }
+
+    /// How long a step from `x` at `v` is worth trying, s: until about the end of the piece, or of what a step may span.
+    fn longest(&self, _here: Self::Here, _x: Vec3, _v: Vec3) -> f64 {
+        f64::INFINITY
+    }
 
     /// What lies ahead of `W` paths (starts and control points 1 to 5 relative to them), as far as a look side by side tells.
     #[inline(always)]
-    fn ahead<const W: usize>(&self, _start: &Lanes3<W>, _path: &[Lanes3<W>; 5], _radius: &Lanes<W>) -> Ahead<W> {
+    fn look<const W: usize>(
+        &self,
+        _here: &[Self::Here; W],
+        _start: &Lanes3<W>,
+        _path: &[Lanes3<W>; 5],
+        _radius: &Lanes<W>,
+    ) -> Ahead<W> {
         Ahead::UNKNOWN
     }
 
-    /// The hit on a face that [`Domain::ahead`] saw, with the centre at `x`, θ along the path.
-    fn hit(&self, _face: usize, _theta: f64, _x: Vec3, _radius: f64) -> Option<Hit> {
-        None
-    }
+    /// What comes first on the path of a sphere of that radius.
+    fn first(&self, here: Self::Here, path: &Path, radius: f64) -> Next<Self::Here>;
+
+    /// The walls.
+    fn walls(&self) -> &Walls;
 }
 
-/// An analytic flow with walls of simple shapes.
+/// What comes first on a path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Next<H> {
+    /// Nothing.
+    Clear,
+    /// The edge of a piece.
+    Edge {
+        /// Where on the path, 0 to 1.
+        theta: f64,
+        /// The piece behind it.
+        into: H,
+    },
+    /// A wall.
+    Wall(Hit),
+    /// The path is longer than the flow's structure allows: a step this share as long would not be.
+    Longest(f64),
+}
+
+/// An analytic flow or a table, with walls.
 #[derive(Debug)]
 pub struct Analytic {
     flow: Flow,
@@ -46,39 +94,147 @@ impl Analytic {
     pub fn new(flow: Flow, walls: Vec<Wall>) -> Self {
         Self { flow, walls: Walls::new(walls) }
     }
-
-    /// The walls, in the order of their indices.
-    pub fn walls(&self) -> &[Wall] {
-        self.walls.list()
-    }
 }
 
+/// Of the time to the end of a piece, what a step tries: the end itself is then well within.
+const BEYOND: f64 = 1.05;
+
+/// Of what a step may span, what it tries.
+const WITHIN: f64 = 0.9;
+
 impl Domain for Analytic {
-    fn fluid(&self, x: Vec3) -> Local {
-        self.flow.sample(x)
+    type Here = Piece;
+    const NOWHERE: Piece = Piece([0; 3]);
+
+    #[inline(always)]
+    fn enter(&self, _time: f64, x: Vec3) -> Piece {
+        self.flow.piece(x)
+    }
+
+    fn fluid(&self, here: Piece, _time: f64, x: Vec3) -> Local {
+        self.flow.sample_in(here, x)
     }
 
     #[inline(always)]
-    fn velocities<const W: usize>(&self, x: &Lanes3<W>) -> Lanes3<W> {
-        self.flow.velocities(x)
+    fn velocities<const W: usize>(&self, here: &[Piece; W], _time: &Lanes<W>, x: &Lanes3<W>) -> Lanes3<W> {
+        self.flow.velocities(here, x)
     }
 
+    #[inline(always)]
     fn is_uniform(&self) -> bool {
         matches!(self.flow, Flow::Still | Flow::Uniform { .. })
     }
 
     #[inline(always)]
-    fn next_wall(&self, path: &Path, radius: f64) -> Option<Hit> {
-        self.walls.first(path, radius)
+    fn is_one_piece(&self) -> bool {
+        self.flow.is_one_piece()
+    }
+
+    #[inline]
+    fn longest(&self, here: Piece, x: Vec3, v: Vec3) -> f64 {
+        let end = BEYOND * self.flow.soonest(here, x, v);
+        let reach = self.flow.reach(here, x);
+        if reach < f64::INFINITY { end.min(WITHIN * reach / norm(v)) } else { end }
     }
 
     #[inline(always)]
-    fn ahead<const W: usize>(&self, start: &Lanes3<W>, path: &[Lanes3<W>; 5], radius: &Lanes<W>) -> Ahead<W> {
-        self.walls.look(start, path, radius)
+    fn look<const W: usize>(
+        &self,
+        here: &[Piece; W],
+        start: &Lanes3<W>,
+        path: &[Lanes3<W>; 5],
+        radius: &Lanes<W>,
+    ) -> Ahead<W> {
+        let mut ahead = self.walls.look(start, path, radius);
+        if !self.flow.is_one_piece() {
+            ahead.look_further(&self.may_leave(here, start, path));
+        }
+        ahead
+    }
+
+    fn first(&self, here: Piece, path: &Path, radius: f64) -> Next<Piece> {
+        let reach = self.flow.reach(here, path.start);
+        if reach < f64::INFINITY {
+            let furthest = path.points.iter().fold(0.0f64, |m, p| m.max(dot(*p, *p))).sqrt();
+            if furthest > reach {
+                return Next::Longest(WITHIN * reach / furthest);
+            }
+        }
+        let hit = self.walls.first(path, radius);
+        match (self.flow.exit(here, path), hit) {
+            (Some(Exit { theta, into }), hit) if hit.is_none_or(|h| theta < h.meeting.theta) => {
+                Next::Edge { theta, into }
+            }
+            (_, Some(hit)) => Next::Wall(hit),
+            (_, None) => Next::Clear,
+        }
     }
 
     #[inline(always)]
-    fn hit(&self, face: usize, theta: f64, x: Vec3, radius: f64) -> Option<Hit> {
-        self.walls.hit(face, theta, x, radius)
+    fn walls(&self) -> &Walls {
+        &self.walls
+    }
+}
+
+impl Analytic {
+    /// Which paths may leave their pieces, or span too much.
+    #[inline]
+    fn may_leave<const W: usize>(&self, here: &[Piece; W], start: &Lanes3<W>, path: &[Lanes3<W>; 5]) -> Mask<W> {
+        let mut may = [0; W];
+        for l in 0..W {
+            let mut corners = [[start[0][l], start[1][l], start[2][l]]; 2];
+            for c in 0..3 {
+                let (mut low, mut high) = (0.0f64, 0.0f64);
+                for point in path {
+                    let p = point[c][l];
+                    low = if p < low { p } else { low };
+                    high = if p > high { p } else { high };
+                }
+                corners[0][c] += low;
+                corners[1][c] += high;
+            }
+            may[l] = mask(!self.flow.holds(here[l], corners));
+        }
+        may
+    }
+}
+
+/// A domain of any kind: chosen once in a run, so that the tracker is compiled once for each.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum AnyDomain {
+    /// An analytic flow or a table, with walls.
+    Analytic(Analytic),
+}
+
+impl From<Analytic> for AnyDomain {
+    fn from(domain: Analytic) -> Self {
+        Self::Analytic(domain)
+    }
+}
+
+impl AnyDomain {
+    /// A flow and its walls.
+    pub fn new(flow: Flow, walls: Vec<Wall>) -> Self {
+        Analytic::new(flow, walls).into()
+    }
+
+    /// The walls, in the order of their indices.
+    pub fn walls(&self) -> &[Wall] {
+        self.geometry().list()
+    }
+
+    /// The walls, as one.
+    pub fn geometry(&self) -> &Walls {
+        match self {
+            Self::Analytic(d) => d.walls(),
+        }
+    }
+
+    /// Everything known of the fluid at a time (s) and point (m).
+    pub fn fluid(&self, time: f64, x: Vec3) -> Local {
+        match self {
+            Self::Analytic(d) => d.fluid(d.enter(time, x), time, x),
+        }
     }
 }

@@ -118,12 +118,20 @@ impl Dynamics {
 
     /// Accelerations of spheres in a domain's fluid.
     #[inline(always)]
-    pub fn rates<const W: usize, D: Domain>(&self, domain: &D, bodies: &Bodies<W>, m: &Motion<W>, out: &mut Rates<W>) {
+    pub fn rates<const W: usize, D: Domain>(
+        &self,
+        domain: &D,
+        here: &[D::Here; W],
+        time: &Lanes<W>,
+        bodies: &Bodies<W>,
+        m: &Motion<W>,
+        out: &mut Rates<W>,
+    ) {
         if self.is_plain() {
-            self.plain_rates(domain, bodies, m, out);
+            self.plain_rates(domain, here, time, bodies, m, out);
         } else {
             for l in 0..W {
-                let r = self.full_rates(domain, bodies, m, l);
+                let r = self.full_rates(domain, here[l], time[l], bodies, m, l);
                 for c in 0..3 {
                     out.a[c][l] = r.acceleration[c] + bodies.kick[c][l];
                     out.alpha[c][l] = r.spin[c];
@@ -136,6 +144,8 @@ impl Dynamics {
     fn plain_rates<const W: usize, D: Domain>(
         &self,
         domain: &D,
+        here: &[D::Here; W],
+        time: &Lanes<W>,
         bodies: &Bodies<W>,
         m: &Motion<W>,
         out: &mut Rates<W>,
@@ -144,7 +154,7 @@ impl Dynamics {
         if self.forces.drag == Drag::None {
             return;
         }
-        let u = domain.velocities(&m.x);
+        let u = domain.velocities(here, time, &m.x);
         let slip = [difference(u[0], m.v[0]), difference(u[1], m.v[1]), difference(u[2], m.v[2])];
         let mut rate = bodies.drag_rate;
         if self.forces.drag != Drag::Stokes {
@@ -170,11 +180,19 @@ impl Dynamics {
     /// A bound on how hard the forces press a sphere at velocity `v` against a wall with that normal, m/s²; infinite where
     /// none is at hand.
     #[inline(always)]
-    pub fn press_at_most<D: Domain>(&self, domain: &D, body: &Bodies<1>, x: Vec3, v: Vec3, normal: Vec3) -> f64 {
+    pub fn press_at_most<D: Domain>(
+        &self,
+        domain: &D,
+        (here, time): (D::Here, f64),
+        body: &Bodies<1>,
+        x: Vec3,
+        v: Vec3,
+        normal: Vec3,
+    ) -> f64 {
         if !self.is_plain() {
             return f64::INFINITY;
         }
-        let u = domain.velocities(&x.map(|c| [c]));
+        let u = domain.velocities(&[here], &[time], &x.map(|c| [c]));
         let slip = [u[0][0] - v[0], u[1][0] - v[1], u[2][0] - v[2]];
         let weight = body.weight.map(|w| w[0]);
         let speed = slip[0].abs() + slip[1].abs() + slip[2].abs();
@@ -185,12 +203,14 @@ impl Dynamics {
     fn full_rates<const W: usize, D: Domain>(
         &self,
         domain: &D,
+        here: D::Here,
+        time: f64,
         bodies: &Bodies<W>,
         m: &Motion<W>,
         l: usize,
     ) -> crate::force::Rates {
         let at = |v: &Lanes3<W>| -> Vec3 { [v[0][l], v[1][l], v[2][l]] };
-        let mut local = domain.fluid(at(&m.x));
+        let mut local = domain.fluid(here, time, at(&m.x));
         if let (Some(walk), Some(eddy)) = (&self.random_walk, &bodies.eddy[l]) {
             let gust = walk.fluctuation(eddy.deviates, &local, self.fluid.kinematic_viscosity());
             local.velocity = add(local.velocity, gust);

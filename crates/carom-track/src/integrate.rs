@@ -167,13 +167,13 @@ fn weigh<const W: usize>(w: &[f64], k: &[Lanes3<W>; STAGES], component: usize) -
 ///
 /// A trait rather than a closure, so that it can be inlined for certain into code compiled for wider instructions.
 pub trait Derivative<const W: usize> {
-    /// Fills in accelerations, and angular ones if [`Control::spins`], for a motion.
-    fn rates(&self, motion: &Motion<W>, out: &mut Rates<W>);
+    /// Fills in accelerations, and angular ones if [`Control::spins`], for a motion at a time (s).
+    fn rates(&self, time: &Lanes<W>, motion: &Motion<W>, out: &mut Rates<W>);
 }
 
 impl<const W: usize, F: Fn(&Motion<W>, &mut Rates<W>)> Derivative<W> for F {
     #[inline(always)]
-    fn rates(&self, motion: &Motion<W>, out: &mut Rates<W>) {
+    fn rates(&self, _time: &Lanes<W>, motion: &Motion<W>, out: &mut Rates<W>) {
         self(motion, out);
     }
 }
@@ -189,9 +189,10 @@ pub struct Control {
     pub place: bool,
 }
 
-/// Tries a step of length `h` (s, one per particle) from `start`, whose rates are `first`.
+/// Tries a step of length `h` (s, one per particle) from `start` at `time`, whose rates are `first`.
 #[inline(always)]
 pub fn step<const W: usize>(
+    time: &Lanes<W>,
     start: &Motion<W>,
     first: &Rates<W>,
     h: &Lanes<W>,
@@ -199,7 +200,7 @@ pub fn step<const W: usize>(
     derivative: &impl Derivative<W>,
     out: &mut Step<W>,
 ) {
-    let trial = Trial { start, h: *h, control };
+    let trial = Trial { time, start, h: *h, control };
     trial.keep::<0>(first, out);
     trial.stage::<1>(derivative, out);
     trial.stage::<2>(derivative, out);
@@ -222,6 +223,7 @@ pub fn step<const W: usize>(
 
 /// A step under way.
 struct Trial<'a, const W: usize> {
+    time: &'a Lanes<W>,
     start: &'a Motion<W>,
     h: Lanes<W>,
     control: Control,
@@ -245,7 +247,7 @@ impl<const W: usize> Trial<'_, W> {
             }
         }
         let mut now = Rates::ZERO;
-        derivative.rates(&at, &mut now);
+        derivative.rates(&fma([C[S]; W], self.h, *self.time), &at, &mut now);
         self.keep::<S>(&now, out);
         (at, now)
     }

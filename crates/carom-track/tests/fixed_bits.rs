@@ -31,7 +31,7 @@ fn injected() -> Vec<f64> {
     };
     let by_mass = Injection::new(1, 2, plan.clone(), &Fluid::default()).unwrap();
     let by_number = Injection::new(1, 3, Plan { amount: Amount::Count(50), ..plan }, &Fluid::default()).unwrap();
-    let starts = (0..50).flat_map(|i| [&by_mass, &by_number].map(|n| n.particle(i, |x| flows()[0].velocity(x))));
+    let starts = (0..50).flat_map(|i| [&by_mass, &by_number].map(|n| n.particle(i, |_, x| flows()[0].velocity(x))));
     starts.flat_map(|p| p.position.into_iter().chain(p.velocity).chain([p.diameter, p.time, p.weight])).collect()
 }
 

@@ -34,7 +34,7 @@ until = "50 ms"
 "#;
 
 fn case() -> Case {
-    Case::from_toml(CASE, Path::new("kill.toml"), &Library::builtin()).expect("a good case")
+    Case::from_toml(CASE, Path::new("kill.toml"), Library::builtin()).expect("a good case")
 }
 
 fn options(out: PathBuf, resume: bool) -> RunOptions {

@@ -8,7 +8,7 @@ use std::path::Path;
 fn the_wind_tunnel_is_as_its_comments_say() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/wind-tunnel.toml");
     let text = std::fs::read_to_string(&file).expect("the example");
-    let case = Case::from_toml(&text, &file, &Library::builtin()).expect("a good case");
+    let case = Case::from_toml(&text, &file, Library::builtin()).expect("a good case");
     let out = tempfile::tempdir().expect("a folder");
     let options = RunOptions { out: Some(out.path().to_owned()), ..RunOptions::default() };
     let summary = run(&case, &options, &Silent).expect("the run");

@@ -15,7 +15,7 @@ fn law(normal: &str) -> WallLaw {
         "sphere = \"stainless-steel\"\nsurface = \"silicon\"\nfriction = 0.2\nroughness_factor = 0.15\n{normal}"
     );
     let spec = carom::spec::parse_law(&text).unwrap_or_else(|e| panic!("{}", e.located("bench", &text)));
-    spec.compile(&Library::builtin()).unwrap_or_else(|e| panic!("{e}"))
+    spec.compile(Library::builtin()).unwrap_or_else(|e| panic!("{e}"))
 }
 
 /// Spread over the ranges of the paper: 0.1 to 30 m/s, 20 to 120 µm, all angles, spins either way.

@@ -10,7 +10,7 @@
 //! ```
 //! use carom::{batch::{Incidence, Rebound}, material::Library, spec::parse_law};
 //! let law = parse_law("sphere = \"copper\"\nsurface = \"aluminium\"\nnormal = \"ea\"\nfriction = 0.2\n")?;
-//! let wall = law.compile(&Library::builtin())?;
+//! let wall = law.compile(Library::builtin())?;
 //! let (mut n, mut t, mut w) = ([0.0; 2], [0.0; 2], [0.0; 2]);
 //! let incidence = Incidence { normal: &[1.0, 1e-3], tangential: &[2.0, 2.0], spin: &[0.0, 0.0], diameter: &[90e-6, 5e-6] };
 //! wall.impact_batch(&incidence, &mut Rebound::new(&mut n, &mut t, &mut w)).expect("columns of equal length, all approaching");
@@ -18,9 +18,10 @@
 //! # Ok::<(), carom::LawError>(())
 //! ```
 
-mod kernel;
+pub use crate::instructions::InstructionSet;
 
 use crate::impact::{Energy, Fate, Impact, ImpactError, Outcome};
+use crate::kernel::columns;
 use crate::wall::WallLaw;
 
 /// The draws of an impact that says nothing of them.
@@ -88,49 +89,13 @@ impl core::fmt::Display for BatchError {
     }
 }
 
-/// A way to run the loops of a batch. All give the same bits; only the speed differs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum InstructionSet {
-    /// Eight lanes (x86-64 with AVX-512 F, DQ, VL and FMA).
-    Avx512,
-    /// Four lanes (x86-64 with AVX2 and FMA).
-    Avx2,
-    /// What the crate was compiled for.
-    Portable,
-}
-
-impl InstructionSet {
-    /// Those this machine has, best first; the first one is what [`WallLaw::impact_batch`] uses.
-    pub fn available() -> impl Iterator<Item = Self> {
-        [Self::Avx512, Self::Avx2, Self::Portable].into_iter().filter(|set| set.is_here())
-    }
-
-    fn is_here(self) -> bool {
-        #[cfg(target_arch = "x86_64")]
-        {
-            use std::arch::is_x86_feature_detected as has;
-            let fused = has!("avx2") && has!("fma");
-            match self {
-                Self::Avx512 => fused && has!("avx512f") && has!("avx512dq") && has!("avx512vl"),
-                Self::Avx2 => fused,
-                Self::Portable => true,
-            }
-        }
-        #[cfg(not(target_arch = "x86_64"))]
-        {
-            self == Self::Portable
-        }
-    }
-}
-
 impl WallLaw {
     /// Many impacts at once; see the [module](crate::batch).
     ///
     /// # Errors
     /// Columns of different lengths; rows that are no impact (all others are done, and the first bad one is named).
     pub fn impact_batch(&self, incidence: &Incidence, rebound: &mut Rebound) -> Result<(), BatchError> {
-        let best = InstructionSet::available().next().unwrap_or(InstructionSet::Portable);
-        self.impact_batch_on(best, incidence, rebound)
+        self.impact_batch_on(InstructionSet::best(), incidence, rebound)
     }
 
     /// As [`WallLaw::impact_batch`], on a given instruction set (for tests and benchmarks); one this machine lacks runs as
@@ -145,10 +110,10 @@ impl WallLaw {
         rebound: &mut Rebound,
     ) -> Result<(), BatchError> {
         self.check_lengths(incidence, rebound)?;
-        if self.scatter.is_some() {
+        if self.scatter().is_some() {
             return self.by_row(incidence, |_| MIDDLE, rebound);
         }
-        let all_fine = kernel::run(&kernel::Machine::new(set), self, incidence, rebound);
+        let all_fine = columns::run(set, self.kernel(), &self.tables(), incidence, rebound);
         if let Some(energy) = rebound.energy.as_deref_mut() {
             for (i, out) in energy.iter_mut().enumerate() {
                 *out = self.planar(incidence, i, MIDDLE).map_or(Energy::default(), |o| o.energy);
@@ -179,7 +144,7 @@ impl WallLaw {
         let mut bad = Ok(());
         for index in 0..rows.normal.len() {
             let met = self.planar(rows, index, draws(index));
-            let [normal, tangential, spin, e, ratio] = met.as_ref().map_or([f64::NAN; 5], columns);
+            let [normal, tangential, spin, e, ratio] = met.as_ref().map_or([f64::NAN; 5], as_row);
             (out.normal[index], out.tangential[index], out.spin[index]) = (normal, tangential, spin);
             if let Some(column) = out.restitution.as_deref_mut() {
                 column[index] = e;
@@ -234,12 +199,12 @@ impl WallLaw {
     /// # Errors
     /// As [`WallLaw::impact`].
     pub fn impact_row(&self, rows: &Incidence, i: usize) -> Result<[f64; 5], ImpactError> {
-        Ok(columns(&self.planar(rows, i, MIDDLE)?))
+        Ok(as_row(&self.planar(rows, i, MIDDLE)?))
     }
 }
 
 /// An outcome as a row: normal and tangential speed, spin, restitution, impulse ratio.
-fn columns(out: &Outcome) -> [f64; 5] {
+fn as_row(out: &Outcome) -> [f64; 5] {
     match out.fate {
         Fate::Capture => [0.0, 0.0, 0.0, 0.0, f64::NAN],
         Fate::Rebound => [out.velocity[1], out.velocity[0], -out.spin[2], out.restitution, out.impulse_ratio],

@@ -125,6 +125,8 @@ pub enum ImpactError {
     /// A velocity, spin or normal is NaN or infinite, the motion is beyond about 1e9 m/s, or a wall that scatters is given a draw outside
     /// [0, 1).
     NotFinite,
+    /// The sphere slips along the wall, and the law was given no friction coefficient.
+    FrictionNotGiven,
     /// The concave surface is not wider than the sphere.
     Curvature,
 }
@@ -143,6 +145,7 @@ impl core::fmt::Display for ImpactError {
                 "velocities and spins must be finite and below 1e9 m/s at the surface, the normal finite and not zero, draws in [0, 1)"
             }
             Self::Curvature => "the surface is concave and its radius of curvature must exceed the sphere's radius",
+            Self::FrictionNotGiven => "the sphere slips along the wall, and the law has no friction coefficient",
         })
     }
 }

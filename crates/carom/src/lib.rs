@@ -12,7 +12,7 @@
 //!     friction = 0.2
 //!     roughness_factor = 0.8
 //! "#)?;
-//! let wall = law.compile(&Library::builtin())?;
+//! let wall = law.compile(Library::builtin())?;
 //! let out = wall.impact(&Impact::new(90e-6, [2.0, -0.5, 0.0], [0.0, 1.0, 0.0])).expect("it approaches the wall");
 //! println!("{}: e = {:.3}, leaves at {:?} m/s", out.fate.name(), out.restitution, out.velocity);
 //! # Ok::<(), carom::LawError>(())
@@ -25,6 +25,8 @@
 pub mod batch;
 pub mod error;
 pub mod impact;
+pub mod instructions;
+pub mod kernel;
 pub mod material;
 pub mod math;
 pub mod normal;
@@ -44,6 +46,7 @@ pub use error::LawError;
 #[doc(hidden)]
 pub use error::LawError as SpecError;
 pub use impact::{Energy, Fate, Impact, ImpactError, Outcome, Vec3};
+pub use normal::Window;
 pub use tangential::Contact;
 pub use validity::Validity;
-pub use wall::{WallLaw, Window};
+pub use wall::WallLaw;

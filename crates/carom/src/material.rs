@@ -1,11 +1,11 @@
-//! Materials: density, Young's modulus, Poisson's ratio, surface energy and yield strength, each with its source.
+//! Materials: density, Young's modulus, Poisson's ratio, surface energy, yield strength and hardness, each with its source.
 //!
 //! A [`Library`] holds materials by name and alias; the built-in one is embedded from `data/materials/*.toml`, and users
 //! add their own in the same form. A property is a value with its unit, or a table that also says where it comes from:
 //!
 //! ```
 //! use carom::material::Library;
-//! let mut library = Library::builtin();
+//! let mut library = Library::builtin().clone();
 //! library.extend_from_toml(r#"
 //!     [material.my-steel]
 //!     density = "7850 kg/m3"
@@ -40,8 +40,12 @@ pub struct Material {
     pub poisson_ratio: Option<f64>,
     /// Surface free energy, J/m².
     pub surface_energy: Option<f64>,
-    /// Tensile (yield) strength, Pa.
+    /// Yield strength of a body that flows before it breaks, Pa.
     pub yield_strength: Option<f64>,
+    /// Indentation hardness: mean pressure over the projected area of an indent, Pa.
+    pub hardness: Option<f64>,
+    /// Stress at which a body that does not flow breaks in tension or bending, Pa. No law reads it.
+    pub tensile_strength: Option<f64>,
     /// What it is, in a line.
     pub description: String,
     /// Other names it answers to.
@@ -67,7 +71,7 @@ impl Material {
         inline::parse(text)
     }
 
-    /// The property, if known.
+    /// Everything known about a property: range, source, alternatives.
     pub fn property(&self, kind: PropertyKind) -> Option<&Property> {
         self.properties.iter().find(|(k, _)| *k == kind).map(|(_, p)| p)
     }

@@ -4,8 +4,27 @@
 //! where it was computed. These leaves use a fixed order of operations and fused multiply-add only (both defined
 //! exactly by IEEE 754), have no branches and no tables, and so also vectorise when they stand in a loop.
 //! Relative errors stay below about 2 units in the last place of a double for `ln` (away from its zero, see the tests) and `exp`.
+//!
+//! Each leaf comes twice: `pow_on(f, …)` takes the multiply-add it is to be built of ([`Fma`]; the bits are the same), `pow(…)` takes
+//! [`BEST`].
 
+mod fma;
 pub mod normal;
+pub mod root;
+
+pub use fma::{BEST, Best, Fma, Fused, Plain, Watched, watched};
+
+/// √x, correctly rounded.
+#[inline(always)]
+pub fn sqrt(x: f64) -> f64 {
+    x.sqrt()
+}
+
+/// The largest whole number that is not above x.
+#[inline(always)]
+pub fn floor(x: f64) -> f64 {
+    x.floor()
+}
 
 /// Natural logarithm of a positive, finite, normal number.
 ///
@@ -18,18 +37,25 @@ pub mod normal;
 /// ```
 #[inline(always)]
 pub fn ln(x: f64) -> f64 {
+    ln_on(BEST, x)
+}
+
+/// As [`ln`].
+#[inline(always)]
+pub fn ln_on<F: Fma>(f: F, x: f64) -> f64 {
     let (k, s) = reduce(x);
     let z = s * s;
     // Σ zⁿ/(2n + 3), in pairs and pairs of pairs: a short chain of dependent operations
     let z2 = z * z;
     let z4 = z2 * z2;
-    let a = z2.mul_add(z.mul_add(1.0 / 9.0, 1.0 / 7.0), z.mul_add(1.0 / 5.0, 1.0 / 3.0));
-    let b = z2.mul_add(z.mul_add(1.0 / 17.0, 1.0 / 15.0), z.mul_add(1.0 / 13.0, 1.0 / 11.0));
-    let c = z2.mul_add(1.0 / 23.0, z.mul_add(1.0 / 21.0, 1.0 / 19.0));
-    let p = z4.mul_add(z4.mul_add(c, b), a);
+    let pair = |high: f64, low: f64| f.horner(1.0 / high, z, 1.0 / low);
+    let a = f.horner(pair(9.0, 7.0), z2, pair(5.0, 3.0));
+    let b = f.horner(pair(17.0, 15.0), z2, pair(13.0, 11.0));
+    let c = f.horner(1.0 / 23.0, z2, pair(21.0, 19.0));
+    let p = f.horner(f.horner(c, z4, b), z4, a);
     let tail = (s * z) * p;
-    let low = k.mul_add(LN2_LOW, 2.0 * tail);
-    k.mul_add(LN2_HIGH, 2.0f64.mul_add(s, low))
+    let low = f.fma(k, LN2_LOW, 2.0 * tail);
+    f.fma(k, LN2_HIGH, f.fma(2.0, s, low))
 }
 
 /// x = 2^k · m with m in [√½, √2): (k, (m − 1)/(m + 1)), so that ln x = k ln 2 + 2 artanh(s).
@@ -61,23 +87,27 @@ const LN2_LOW: f64 = f64::from_bits(0x3DEA_39EF_3579_3C76);
 /// ```
 #[inline(always)]
 pub fn exp(x: f64) -> f64 {
+    exp_on(BEST, x)
+}
+
+/// As [`exp`].
+#[inline(always)]
+pub fn exp_on<F: Fma>(f: F, x: f64) -> f64 {
     // written so that a NaN survives: comparisons with it are false
     let x = if x < -708.0 { -708.0 } else { x };
     let x = if x > 709.0 { 709.0 } else { x };
-    let shifted = x.mul_add(std::f64::consts::LOG2_E, SHIFT);
+    let shifted = f.horner(x, core::f64::consts::LOG2_E, SHIFT);
     let k = shifted - SHIFT;
-    let r = k.mul_add(-LN2_LOW, k.mul_add(-LN2_HIGH, x));
+    let r = f.fma(k, -LN2_LOW, f.fma(k, -LN2_HIGH, x));
     // Σ rⁿ/(n + 2)!, likewise
     let r2 = r * r;
     let r4 = r2 * r2;
-    let a = r2.mul_add(r.mul_add(1.0 / 120.0, 1.0 / 24.0), r.mul_add(1.0 / 6.0, 0.5));
-    let b = r2.mul_add(r.mul_add(1.0 / 362_880.0, 1.0 / 40_320.0), r.mul_add(1.0 / 5_040.0, 1.0 / 720.0));
-    let c = r2.mul_add(
-        r.mul_add(1.0 / 6_227_020_800.0, 1.0 / 479_001_600.0),
-        r.mul_add(1.0 / 39_916_800.0, 1.0 / 3_628_800.0),
-    );
-    let p = r4.mul_add(r4.mul_add(c, b), a);
-    let p = r2.mul_add(p, r) + 1.0;
+    let pair = |high: f64, low: f64| f.horner(1.0 / high, r, 1.0 / low);
+    let a = f.horner(pair(120.0, 24.0), r2, pair(6.0, 2.0));
+    let b = f.horner(pair(362_880.0, 40_320.0), r2, pair(5_040.0, 720.0));
+    let c = f.horner(pair(6_227_020_800.0, 479_001_600.0), r2, pair(39_916_800.0, 3_628_800.0));
+    let p = f.horner(f.horner(c, r4, b), r4, a);
+    let p = f.horner(p, r2, r) + 1.0;
     f64::from_bits(p.to_bits().wrapping_add(shifted.to_bits() << 52))
 }
 
@@ -91,13 +121,25 @@ pub fn exp(x: f64) -> f64 {
 /// ```
 #[inline(always)]
 pub fn pow(x: f64, y: f64) -> f64 {
-    exp2(y * log2(x))
+    pow_on(BEST, x, y)
+}
+
+/// As [`pow`].
+#[inline(always)]
+pub fn pow_on<F: Fma>(f: F, x: f64, y: f64) -> f64 {
+    exp2_on(f, y * log2_on(f, x))
 }
 
 /// log₂ x, domain as [`ln`].
 #[inline(always)]
-fn log2(x: f64) -> f64 {
-    use std::f64::consts::LOG2_E;
+pub fn log2(x: f64) -> f64 {
+    log2_on(BEST, x)
+}
+
+/// As [`log2`].
+#[inline(always)]
+pub fn log2_on<F: Fma>(f: F, x: f64) -> f64 {
+    use core::f64::consts::LOG2_E;
     let (k, s) = reduce(x);
     let z = s * s;
     let z2 = z * z;
@@ -112,16 +154,23 @@ fn log2(x: f64) -> f64 {
         0.220_934_625_579_232_3,
         0.213_464_901_520_120_87,
     ];
-    let a = z2.mul_add(z.mul_add(C[3], C[2]), z.mul_add(C[1], C[0]));
-    let b = z2.mul_add(C[6], z.mul_add(C[5], C[4]));
-    let p = z4.mul_add(b, a);
-    (s * z).mul_add(p, s.mul_add(2.0 * LOG2_E, k))
+    let pair = |low: usize| f.horner(C[low + 1], z, C[low]);
+    let a = f.horner(pair(2), z2, pair(0));
+    let b = f.horner(C[6], z2, pair(4));
+    let p = f.horner(b, z4, a);
+    f.horner(s * z, p, f.horner(s, 2.0 * LOG2_E, k))
 }
 
 /// 2^t.
 #[inline(always)]
-fn exp2(t: f64) -> f64 {
-    use std::f64::consts::LN_2;
+pub fn exp2(t: f64) -> f64 {
+    exp2_on(BEST, t)
+}
+
+/// As [`exp2`].
+#[inline(always)]
+pub fn exp2_on<F: Fma>(f: F, t: f64) -> f64 {
+    use core::f64::consts::LN_2;
     let t = if t < -1020.0 { -1020.0 } else { t };
     let t = if t > 1022.0 { 1022.0 } else { t };
     let shifted = t + SHIFT;
@@ -141,10 +190,11 @@ fn exp2(t: f64) -> f64 {
     ];
     let r2 = r * r;
     let r4 = r2 * r2;
-    let a = r2.mul_add(r.mul_add(C[3], C[2]), r.mul_add(C[1], C[0]));
-    let b = r2.mul_add(r.mul_add(C[7], C[6]), r.mul_add(C[5], C[4]));
-    let c = r.mul_add(C[9], C[8]);
-    let p = r2.mul_add(r4.mul_add(r4.mul_add(c, b), a), r * LN_2) + 1.0;
+    let pair = |low: usize| f.horner(C[low + 1], r, C[low]);
+    let a = f.horner(pair(2), r2, pair(0));
+    let b = f.horner(pair(6), r2, pair(4));
+    let p = f.horner(f.horner(pair(8), r4, b), r4, a);
+    let p = f.horner(p, r2, r * LN_2) + 1.0;
     f64::from_bits(p.to_bits().wrapping_add(shifted.to_bits() << 52))
 }
 
@@ -156,14 +206,20 @@ fn exp2(t: f64) -> f64 {
 /// ```
 #[inline(always)]
 pub fn sin_cos(x: f64) -> (f64, f64) {
-    use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
+    sin_cos_on(BEST, x)
+}
+
+/// As [`sin_cos`].
+#[inline(always)]
+pub fn sin_cos_on<F: Fma>(f: F, x: f64) -> (f64, f64) {
+    use core::f64::consts::{FRAC_2_PI, FRAC_PI_2};
     /// π/2 less its double.
     const PI_2_LOW: f64 = 6.123_233_995_736_766e-17;
-    let k = x.mul_add(FRAC_2_PI, SHIFT) - SHIFT;
-    let r = k.mul_add(-PI_2_LOW, k.mul_add(-FRAC_PI_2, x));
+    let k = f.fma(x, FRAC_2_PI, SHIFT) - SHIFT;
+    let r = f.fma(k, -PI_2_LOW, f.fma(k, -FRAC_PI_2, x));
     let z = r * r;
-    // Taylor series on |r| ≤ π/4, 1/n! with alternating signs
-    let series = |c: [f64; 8]| c.iter().rev().fold(0.0f64, |sum, &a| sum.mul_add(z, a));
+    // not steps of `horner`: beyond the range r is not small. Taylor series on |r| ≤ π/4, 1/n! with alternating signs
+    let series = |c: [f64; 8]| c.iter().rev().fold(0.0f64, |sum, &a| f.fma(sum, z, a));
     const FACTORIALS: [f64; 18] = {
         let mut f = [1.0; 18];
         let mut n = 1;
@@ -174,8 +230,8 @@ pub fn sin_cos(x: f64) -> (f64, f64) {
         f
     };
     let sign = |n: usize| if n.is_multiple_of(2) { 1.0 } else { -1.0 };
-    let s = (r * z).mul_add(series(std::array::from_fn(|n| sign(n + 1) / FACTORIALS[2 * n + 3])), r);
-    let c = z.mul_add(series(std::array::from_fn(|n| sign(n + 1) / FACTORIALS[2 * n + 2])), 1.0);
+    let s = f.fma(r * z, series(core::array::from_fn(|n| sign(n + 1) / FACTORIALS[2 * n + 3])), r);
+    let c = f.fma(series(core::array::from_fn(|n| sign(n + 1) / FACTORIALS[2 * n + 2])), z, 1.0);
     match (k as i64).rem_euclid(4) {
         0 => (s, c),
         1 => (c, -s),
@@ -192,10 +248,16 @@ pub fn sin_cos(x: f64) -> (f64, f64) {
 /// ```
 #[inline(always)]
 pub fn angle(along: f64, up: f64) -> f64 {
+    angle_on(BEST, along, up)
+}
+
+/// As [`angle`].
+#[inline(always)]
+pub fn angle_on<F: Fma>(f: F, along: f64, up: f64) -> f64 {
     // Three halvings of the angle bring the tangent below tan(π/16), where the series is short.
-    let mut t = up / (along + along.mul_add(along, up * up).sqrt());
-    t /= 1.0 + t.mul_add(t, 1.0).sqrt();
-    t /= 1.0 + t.mul_add(t, 1.0).sqrt();
+    let mut t = up / (along + sqrt(f.fma(along, along, up * up)));
+    t /= 1.0 + sqrt(f.horner(t, t, 1.0));
+    t /= 1.0 + sqrt(f.horner(t, t, 1.0));
     let z = t * t;
     let mut p: f64 = 1.0 / 25.0;
     for c in [
@@ -211,9 +273,9 @@ pub fn angle(along: f64, up: f64) -> f64 {
         1.0 / 5.0,
         -1.0 / 3.0,
     ] {
-        p = p.mul_add(z, c);
+        p = f.horner(p, z, c);
     }
-    8.0 * (t * z).mul_add(p, t)
+    8.0 * f.horner(t * z, p, t)
 }
 
 #[cfg(test)]
@@ -269,6 +331,39 @@ mod tests {
             assert!((s - x.sin()).abs() < 3e-16 && (c - x.cos()).abs() < 3e-16, "{x}: {s} {c}");
         }
         assert_eq!(sin_cos(0.0), (0.0, 1.0));
+    }
+
+    /// Numbers of every size and kind, and each with its neighbours.
+    fn any_numbers() -> Vec<f64> {
+        let mut all = vec![0.0, f64::INFINITY, f64::NAN, f64::MAX, f64::MIN_POSITIVE, 5e-324, 1e-310];
+        for i in 0..4000 {
+            all.push(10f64.powf(-320.0 + 0.157 * f64::from(i)));
+            all.push(1.0 + (f64::from(i) - 2000.0) * 1e-4);
+            all.push(f64::from(i) * 0.003);
+        }
+        let near =
+            all.clone().into_iter().flat_map(|x| [-1, 1].map(|d| f64::from_bits(x.to_bits().wrapping_add_signed(d))));
+        all.extend(near);
+        let negative = all.clone().into_iter().map(|x| -x);
+        all.extend(negative);
+        all
+    }
+
+    #[test]
+    fn leaves_have_the_same_bits_without_a_fused_multiply_add() {
+        fn all<F: Fma>(f: F, x: f64) -> [f64; 9] {
+            let (sine, cosine) = sin_cos_on(f, x);
+            let (log, power) = (log2_on(f, x), pow_on(f, x, -0.8));
+            let quantile = normal::normal_quantile_on(f, x);
+            [ln_on(f, x), exp_on(f, x), exp2_on(f, x), log, power, sine, cosine, angle_on(f, 0.7, x), quantile]
+        }
+        let bits = |values: [f64; 9]| values.map(|v| if v.is_nan() { 0 } else { v.to_bits() });
+        for x in any_numbers() {
+            let want = bits(all(Fused, x));
+            assert_eq!(bits(all(Plain, x)), want, "{x:e}");
+            let (found, exact) = watched(|f| all(f, x));
+            assert!(!exact || bits(found) == want, "{x:e}");
+        }
     }
 
     #[test]

@@ -9,12 +9,26 @@ pub mod bons;
 pub mod damping;
 pub mod el_batsh;
 pub mod empirical;
+mod inputs;
 pub mod ledger;
+mod mechanism;
 pub mod plastic;
+mod registry;
+mod response;
+pub mod restitution;
 pub mod tabor;
 pub mod thornton_ning;
+pub mod well;
+mod window;
 
-pub use ledger::{Ledger, Loss, Losses};
+pub use inputs::Inputs;
+pub use ledger::Ledger;
+pub use mechanism::{Account, Losses, Mechanism, Stage};
+pub(crate) use registry::Loops;
+pub use registry::{Loss, Term};
+pub use response::NormalLaw;
+pub(crate) use response::NormalResponse;
+pub use window::Window;
 
 /// The size of an impact: all that a loss needs beyond the approach speed and the law's constants.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,10 +5,14 @@
 //! - compliance k_i = (1 − ν_i²)/(πE_i), 1/Pa (Eq. 6);
 //! - Hertzian stiffness K = 4/(3π(k₁ + k₂)), Pa (Eq. 5), the same as (4/3)E* with 1/E* = Σ(1 − ν_i²)/E_i;
 //! - work of adhesion w = γ₁ + γ₂ − γ₁₂ with γ₁₂ = γ₁ + γ₂ − 2Φ√(γ₁γ₂), so w = 2Φ√(γ₁γ₂), J/m² (Eqs 17, 18);
-//! - plastic constant k = σ/2 of the body that yields first, Pa.
+//! - plastic constant k of the body whose contact yields first, Pa: σ/2 from its yield strength σ, else H/λ from its hardness H, since
+//!   the model's limiting contact pressure λk (λ = 5.7, [`crate::normal::plastic`]) is what an indentation measures. The strength at
+//!   which a brittle body breaks in tension is no yield strength and is never used: under the pressure of a small contact silicon flows
+//!   at about 10 GPa, though a wafer breaks at 0.1 GPa.
 
 use crate::error::{LawError, Problem};
 use crate::material::{Material, PropertyKind};
+use crate::normal::plastic::LAMBDA;
 use crate::spec::Key;
 use std::f64::consts::PI;
 
@@ -23,6 +27,41 @@ pub struct Overrides {
     pub plastic_constant: Option<f64>,
     /// Interfacial parameter Φ, 1 when absent.
     pub interfacial_parameter: Option<f64>,
+    /// Factor on the plastic constant for strain rate and size, 1 when absent.
+    pub dynamic_strength_factor: Option<f64>,
+}
+
+/// What a plastic constant follows from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum StrengthSource {
+    /// Given as such.
+    Given,
+    /// The yield strength of a body: in a table, one of a bulk specimen in a slow test.
+    YieldStrength,
+    /// The hardness of a body: an indentation, slow as well.
+    Hardness,
+}
+
+/// The body of a pair that a value belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Body {
+    /// The sphere.
+    Sphere,
+    /// The surface.
+    Surface,
+}
+
+/// The plastic constant of a pair and where it comes from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Strength {
+    /// Plastic constant k, Pa, with the factor for strain rate and size in it.
+    pub plastic_constant: f64,
+    /// What it follows from.
+    pub source: StrengthSource,
+    /// The body that yields first; `None` where k was given for the pair.
+    pub body: Option<Body>,
 }
 
 /// Contact constants of two materials. What neither the materials nor an override give is `None`, and a law that
@@ -60,32 +99,35 @@ impl Pair {
     }
 
     /// A property of one body that the law needs; `instead` would do for it.
-    fn needed(&self, surface: bool, property: PropertyKind, instead: Option<Key>) -> Result<f64, LawError> {
-        let material = if surface { &self.surface } else { &self.sphere };
-        material.value(property).ok_or_else(|| match self.given[usize::from(surface)] {
+    fn needed(&self, body: Body, property: PropertyKind, instead: Option<Key>) -> Result<f64, LawError> {
+        let (material, given) = match body {
+            Body::Sphere => (&self.sphere, self.given[0]),
+            Body::Surface => (&self.surface, self.given[1]),
+        };
+        material.value(property).ok_or_else(|| match given {
             true => Problem::MissingProperty { material: material.name.clone(), property, instead }.into(),
-            false => Problem::MissingMaterial { sphere: !surface, surface, reader: None }.into(),
+            false => {
+                let sphere = body == Body::Sphere;
+                Problem::MissingMaterial { sphere, surface: !sphere, reader: None }.into()
+            }
         })
     }
 
     /// Young's modulus and Poisson's ratio of one body.
-    fn elasticity(&self, surface: bool, instead: Option<Key>) -> Result<[f64; 2], LawError> {
+    fn elasticity(&self, body: Body, instead: Option<Key>) -> Result<[f64; 2], LawError> {
         Ok([
-            self.needed(surface, PropertyKind::YoungModulus, instead)?,
-            self.needed(surface, PropertyKind::PoissonRatio, instead)?,
+            self.needed(body, PropertyKind::YoungModulus, instead)?,
+            self.needed(body, PropertyKind::PoissonRatio, instead)?,
         ])
     }
 
-    /// Compliance k_i = (1 − ν²)/(πE), 1/Pa (Eq. 6), of the sphere and of the surface.
+    /// Compliance k_i = (1 − ν_i²)/(πE_i), 1/Pa (Eq. 6), of one body.
     ///
     /// # Errors
     /// No Young's modulus or no Poisson's ratio.
-    pub fn compliances(&self) -> Result<[f64; 2], LawError> {
-        let one = |surface| -> Result<f64, LawError> {
-            let [e, nu] = self.elasticity(surface, Some(Key::Stiffness))?;
-            Ok((1.0 - nu * nu) / (PI * e))
-        };
-        Ok([one(false)?, one(true)?])
+    pub fn compliance(&self, body: Body) -> Result<f64, LawError> {
+        let [e, nu] = self.elasticity(body, Some(Key::Stiffness))?;
+        Ok((1.0 - nu * nu) / (PI * e))
     }
 
     /// The sphere's material.
@@ -103,7 +145,7 @@ impl Pair {
     /// # Errors
     /// The sphere's material has none.
     pub fn density(&self) -> Result<f64, LawError> {
-        self.needed(false, PropertyKind::Density, None)
+        self.needed(Body::Sphere, PropertyKind::Density, None)
     }
 
     /// Hertzian stiffness K, Pa (Eq. 5).
@@ -114,8 +156,7 @@ impl Pair {
         if let Some(k) = self.overrides.stiffness {
             return Ok(k);
         }
-        let [sphere, surface] = self.compliances()?;
-        Ok(4.0 / (3.0 * PI * (sphere + surface)))
+        Ok(4.0 / (3.0 * PI * (self.compliance(Body::Sphere)? + self.compliance(Body::Surface)?)))
     }
 
     /// Effective modulus E* = (3/4)K, Pa.
@@ -133,8 +174,8 @@ impl Pair {
     /// A material without Young's modulus or Poisson's ratio.
     pub fn stiffness_ratio(&self) -> Result<f64, LawError> {
         let (mut normal, mut tangential) = (0.0, 0.0);
-        for surface in [false, true] {
-            let [e, nu] = self.elasticity(surface, None)?;
+        for body in [Body::Sphere, Body::Surface] {
+            let [e, nu] = self.elasticity(body, None)?;
             normal += (1.0 - nu * nu) / e;
             // (2 − ν)/(4G) with G = E/(2(1 + ν))
             tangential += (2.0 - nu) * (1.0 + nu) / (2.0 * e);
@@ -150,33 +191,69 @@ impl Pair {
         if let Some(w) = self.overrides.work_of_adhesion {
             return Ok(w);
         }
-        let gamma = |surface| self.needed(surface, PropertyKind::SurfaceEnergy, Some(Key::WorkOfAdhesion));
-        Ok(2.0 * self.overrides.interfacial_parameter.unwrap_or(1.0) * (gamma(false)? * gamma(true)?).sqrt())
+        let gamma = |body| self.needed(body, PropertyKind::SurfaceEnergy, Some(Key::WorkOfAdhesion));
+        Ok(2.0
+            * self.overrides.interfacial_parameter.unwrap_or(1.0)
+            * (gamma(Body::Sphere)? * gamma(Body::Surface)?).sqrt())
     }
 
-    /// Plastic constant k = σ/2 of the body that yields first, Pa. A body without a yield strength is taken to stay
-    /// elastic (a ceramic on a metal), so one of the two is enough.
+    /// Plastic constant k, Pa, of the body whose contact yields first. A body with neither yield strength nor hardness is taken to
+    /// stay elastic, so one of the two is enough.
     ///
     /// # Errors
-    /// Neither material has a yield strength, and no override.
+    /// Neither material has a yield strength or a hardness, and no override.
+    ///
+    /// ```
+    /// use carom::{material::Library, pair::{Overrides, Pair, StrengthSource}};
+    /// let library = Library::builtin();
+    /// let pair = |sphere, surface| -> Result<_, carom::LawError> {
+    ///     Ok(Pair::new(library.get(sphere)?, library.get(surface)?, &Overrides::default()))
+    /// };
+    /// // steel on silicon: the steel yields (sigma = 310 MPa), not the silicon, which is hard though it breaks at 120 MPa
+    /// assert_eq!(pair("stainless-steel", "silicon")?.plastic_constant()?, 155e6);
+    /// // quartz on silicon: both are brittle, and their hardness limits the pressure
+    /// assert_eq!(pair("quartz", "silicon")?.strength()?.source, StrengthSource::Hardness);
+    /// # Ok::<(), carom::LawError>(())
+    /// ```
     pub fn plastic_constant(&self) -> Result<f64, LawError> {
-        if let Some(k) = self.overrides.plastic_constant {
-            return Ok(k);
-        }
-        match (self.sphere.yield_strength, self.surface.yield_strength) {
-            (Some(a), Some(b)) => Ok(a.min(b) / 2.0),
-            (Some(a), None) | (None, Some(a)) => Ok(a / 2.0),
-            (None, None) => Err(match self.given {
-                [true, true] => Problem::MissingInBoth {
-                    sphere: self.sphere.name.clone(),
-                    surface: self.surface.name.clone(),
-                    property: PropertyKind::YieldStrength,
-                    instead: Key::PlasticConstant,
-                },
-                [sphere, surface] => Problem::MissingMaterial { sphere: !sphere, surface: !surface, reader: None },
-            }
-            .into()),
-        }
+        self.strength().map(|s| s.plastic_constant)
+    }
+
+    /// The plastic constant with where it comes from.
+    ///
+    /// # Errors
+    /// As [`Pair::plastic_constant`].
+    pub fn strength(&self) -> Result<Strength, LawError> {
+        let factor = self.overrides.dynamic_strength_factor.unwrap_or(1.0);
+        let strength = match self.overrides.plastic_constant {
+            Some(k) => Some(Strength { plastic_constant: k, source: StrengthSource::Given, body: None }),
+            None => weaker(strength_of(&self.sphere, Body::Sphere), strength_of(&self.surface, Body::Surface)),
+        };
+        let strength = strength.ok_or_else(|| match self.given {
+            [true, true] => Problem::MissingInBoth {
+                sphere: self.sphere.name.clone(),
+                surface: self.surface.name.clone(),
+                properties: [PropertyKind::YieldStrength, PropertyKind::Hardness],
+                instead: Key::PlasticConstant,
+            },
+            [sphere, surface] => Problem::MissingMaterial { sphere: !sphere, surface: !surface, reader: None },
+        })?;
+        Ok(Strength { plastic_constant: factor * strength.plastic_constant, ..strength })
+    }
+}
+
+/// What limits the pressure on one body: where it flows before it breaks its yield strength, else its hardness.
+fn strength_of(material: &Material, body: Body) -> Option<Strength> {
+    let ductile = material.yield_strength.map(|sigma| (sigma / 2.0, StrengthSource::YieldStrength));
+    let (plastic_constant, source) =
+        ductile.or(material.hardness.map(|hardness| (hardness / LAMBDA, StrengthSource::Hardness)))?;
+    Some(Strength { plastic_constant, source, body: Some(body) })
+}
+
+fn weaker(a: Option<Strength>, b: Option<Strength>) -> Option<Strength> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(if b.plastic_constant < a.plastic_constant { b } else { a }),
+        (a, b) => a.or(b),
     }
 }
 
@@ -217,5 +294,36 @@ mod tests {
         assert!(pair.stiffness().is_err_and(|e| e.to_string().contains("Young's modulus")));
         assert!(pair.work_of_adhesion().is_err_and(|e| e.to_string().contains("work_of_adhesion")));
         assert!(pair.plastic_constant().is_err_and(|e| e.to_string().contains("yield strength")));
+    }
+
+    fn strength(sphere: &str, surface: &str, overrides: &Overrides) -> Option<Strength> {
+        let material = |text| Material::from_inline(text).unwrap_or_else(|e| panic!("{text}: {e}"));
+        Pair::new(&material(sphere), &material(surface), overrides).strength().ok()
+    }
+
+    #[test]
+    fn the_weaker_of_yield_strength_and_hardness_limits_the_pressure_and_a_tensile_strength_never_does() {
+        use Body::{Sphere, Surface};
+        use StrengthSource::{Given, Hardness, YieldStrength};
+        let none = Overrides::default();
+        let given = Overrides { plastic_constant: Some(1e8), ..none };
+        let fast = Overrides { dynamic_strength_factor: Some(3.0), ..none };
+        for (sphere, surface, overrides, wanted) in [
+            // a ductile body's yield strength, whatever its hardness
+            ("sigma=310MPa,H=1.3GPa", "rho=1000", none, Some((155e6, YieldStrength, Some(Sphere)))),
+            // a brittle body's hardness: the mean pressure 5.7 k is H
+            ("rho=1000", "H=5.7GPa,sigma_t=120MPa", none, Some((1e9, Hardness, Some(Surface)))),
+            ("sigma=310MPa", "H=5.7GPa,sigma_t=120MPa", none, Some((155e6, YieldStrength, Some(Sphere)))),
+            ("sigma=4GPa", "H=5.7GPa,sigma_t=120MPa", none, Some((1e9, Hardness, Some(Surface)))),
+            ("sigma_t=120MPa", "sigma_t=50MPa", none, None),
+            // told to
+            ("rho=1000", "sigma=120MPa,sigma_t=120MPa", none, Some((60e6, YieldStrength, Some(Surface)))),
+            ("sigma=310MPa", "H=5.7GPa", given, Some((1e8, Given, None))),
+            ("sigma=310MPa", "H=5.7GPa", fast, Some((3.0 * 155e6, YieldStrength, Some(Sphere)))),
+            ("sigma=310MPa", "rho=1000", Overrides { plastic_constant: Some(1e8), ..fast }, Some((3e8, Given, None))),
+        ] {
+            let got = strength(sphere, surface, &overrides).map(|s| (s.plastic_constant, s.source, s.body));
+            assert_eq!(got, wanted, "{sphere} on {surface}");
+        }
     }
 }

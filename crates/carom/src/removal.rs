@@ -32,7 +32,7 @@
 //! ```
 //! use carom::{material::Library, removal::Fluid, spec::parse_law};
 //! let law = parse_law("sphere = \"copper\"\nsurface = \"silicon\"\nnormal = \"ea\"\nfriction = 0.2\nroughness_factor = 0.1\n")?;
-//! let wall = law.compile(&Library::builtin())?;
+//! let wall = law.compile(Library::builtin())?;
 //! let air = Fluid { density: 1.19, viscosity: 1.83e-5 };
 //! let removal = wall.removal(50e-6, &air).expect("in range").expect("it adheres");
 //! let sliding = removal.sliding.expect("the law has friction");
@@ -219,14 +219,14 @@ impl WallLaw {
     /// A diameter out of range.
     pub fn removal(&self, diameter: f64, fluid: &Fluid) -> Result<Option<Removal>, ImpactError> {
         let size = self.size(diameter, None)?;
-        let Some(pair) = &self.pair else { return Ok(None) };
+        let Some(pair) = self.pair() else { return Ok(None) };
         let (Ok(w), Ok(stiffness)) = (pair.work_of_adhesion(), pair.stiffness()) else { return Ok(None) };
         let attached = Attached {
             diameter,
             effective_radius: size.radius * size.kappa,
-            work_of_adhesion: w * self.roughness_factor,
+            work_of_adhesion: w * self.roughness_factor(),
             stiffness,
-            friction: self.tangential.friction(),
+            friction: self.tangential().friction(),
         };
         Ok((attached.work_of_adhesion > 0.0).then(|| attached.removal(fluid)))
     }

@@ -26,8 +26,8 @@
 //! <https://doi.org/10.1016/0167-2789(82)90034-3>).
 //!
 //! ```
-//! use carom::resolved::{AdhesionMode, Resolved};
-//! use carom::normal::{Size, adhesion::Work, damping::Damping};
+//! use carom::resolved::{AdhesionMode, Damping, Resolved};
+//! use carom::normal::{Size, adhesion::Work};
 //! // 70 µm stainless steel on silicon, Kim & Dunn (2007), Fig. 8
 //! let work = Work::new(127.8e9, 3.03, 0.15, 8000.0);
 //! let contact = Resolved::new(work, Damping { adhesion: 1.3, hertz: 0.007 }, AdhesionMode::SeparationOnly);
@@ -40,11 +40,11 @@ mod motion;
 
 pub use history::{Moment, Scales};
 
+use crate::instructions::{self, InstructionSet};
+use crate::math::{self, Fma};
 use crate::normal::adhesion::Work;
-use crate::normal::damping::Damping;
-use crate::normal::{Losses, Size};
+use crate::normal::{Losses, NormalResponse, Size, Window};
 use crate::validity::Validity;
-use crate::wall::{NormalResponse, Window};
 use motion::{Contact, Motion};
 
 /// When adhesion acts.
@@ -55,6 +55,21 @@ pub enum AdhesionMode {
     SeparationOnly,
     /// On approach and separation alike, as Eq. 4 is printed.
     Reversible,
+}
+
+/// Damping coefficients, s/m; zero for none.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Damping {
+    /// C_A.
+    pub adhesion: f64,
+    /// C_H.
+    pub hertz: f64,
+}
+
+impl Damping {
+    fn is_none(&self) -> bool {
+        self.adhesion == 0.0 && self.hertz == 0.0
+    }
 }
 
 /// The resolved law of one pair.
@@ -75,9 +90,9 @@ impl Resolved {
     }
 
     #[inline(always)]
-    fn contact(&self, v: f64, size: &Size) -> Contact {
+    fn contact<F: Fma>(&self, f: F, v: f64, size: &Size) -> Contact {
         Contact {
-            adhesion: self.work.fraction(v, size) / PSI_OVER_A,
+            adhesion: self.work.fraction_on(f, v, size) / PSI_OVER_A,
             adhesion_damping: self.damping.adhesion * v,
             hertz_damping: self.damping.hertz * v,
             reversible: self.mode == AdhesionMode::Reversible,
@@ -92,24 +107,19 @@ impl Resolved {
     /// Not inlined: the series need a large stack frame, which the other laws should not pay for.
     #[inline(never)]
     pub(crate) fn respond(&self, v: f64, size: &Size) -> NormalResponse {
-        #[cfg(target_arch = "x86_64")]
-        if std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma") {
-            // SAFETY: the processor has the features the function is compiled for, as was just asked.
-            return unsafe { respond_avx2(self, v, size) };
-        }
-        self.respond_body(v, size)
+        InstructionSet::best().run(Respond { law: self, v, size })
     }
 
     #[inline(always)]
-    fn respond_body(&self, v: f64, size: &Size) -> NormalResponse {
-        let contact = self.contact(v, size);
-        let motion = contact.solve(f64::INFINITY, &mut |_, _| ());
+    fn respond_body<F: Fma>(&self, f: F, v: f64, size: &Size) -> NormalResponse {
+        let contact = self.contact(f, v, size);
+        let motion = contact.solve(f, f64::INFINITY, &mut |_, _| ());
         response(&contact, &motion)
     }
 
-    /// Doubts that belong to this law.
+    /// Warnings that belong to this law.
     #[inline(always)]
-    pub(crate) fn doubts(&self, v: f64) -> Validity {
+    pub(crate) fn warnings(&self, v: f64) -> Validity {
         let repelling = self.mode == AdhesionMode::Reversible && self.damping.adhesion * v > 1.0;
         Validity::REPELLING_ADHESION.when(repelling).with(Validity::PULLING_HERTZ.when(self.damping.hertz * v > 1.0))
     }
@@ -119,7 +129,7 @@ impl Resolved {
         let open = |v: f64| self.restitution(v, size) > 0.0;
         let mut high = self.work.capture_velocity(size);
         if high == 0.0 || (self.mode == AdhesionMode::Reversible && self.damping.is_none()) {
-            return Some(Window { capture_velocity: 0.0, exhausted_velocity: f64::INFINITY });
+            return Some(Window::ALL);
         }
         let mut low = high;
         for _ in 0..60 {
@@ -135,7 +145,7 @@ impl Resolved {
             (high, low) = (low, 0.5 * low);
         }
         if !open(high) || open(low) {
-            return open(high).then_some(Window { capture_velocity: 0.0, exhausted_velocity: f64::INFINITY });
+            return open(high).then_some(Window::ALL);
         }
         for _ in 0..60 {
             let middle = 0.5 * (low + high);
@@ -145,10 +155,19 @@ impl Resolved {
     }
 }
 
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2,fma")]
-fn respond_avx2(law: &Resolved, v: f64, size: &Size) -> NormalResponse {
-    law.respond_body(v, size)
+struct Respond<'a> {
+    law: &'a Resolved,
+    v: f64,
+    size: &'a Size,
+}
+
+impl instructions::Work for Respond<'_> {
+    type Output = NormalResponse;
+
+    #[inline(always)]
+    fn run<F: Fma, const LANES: usize>(self, f: F) -> NormalResponse {
+        self.law.respond_body(f, self.v, self.size)
+    }
 }
 
 /// Energy fractions from the work done along the way; e from what they leave.
@@ -163,16 +182,17 @@ fn response(contact: &Contact, motion: &Motion) -> NormalResponse {
         adhesion,
         adhesion_damping: 2.0 * motion.end.rides.adhesion_work,
         hertz_damping: 2.0 * motion.end.rides.hertz_work,
-        plastic: 0.0,
+        ..Losses::default()
     };
     if motion.captured {
         // what is not dissipated yet holds the sphere: the adhesion's
         let dissipated = losses.adhesion_damping + losses.hertz_damping;
         losses.adhesion = losses.adhesion.max(1.0 - dissipated);
-        return NormalResponse { e: 0.0, losses, other: 0.0, friction_share: 1.0 };
+        return NormalResponse { e: 0.0, losses, friction_share: 1.0 };
     }
-    let e = losses.restitution();
-    NormalResponse { e, losses, other: 0.0, friction_share: motion.end.rides.impulse / (1.0 + e) }
+    let left = 1.0 - losses.total();
+    let e = if left > 0.0 { math::sqrt(left) } else { 0.0 };
+    NormalResponse { e, losses, friction_share: motion.end.rides.impulse / (1.0 + e) }
 }
 
 #[cfg(test)]

@@ -42,13 +42,13 @@
 //! ```
 
 use crate::impact::Vec3;
-use crate::math::normal::{normal_density, normal_probability, normal_quantile};
-use crate::math::{angle, exp, sin_cos};
+use crate::math::normal::{normal_density_on, normal_probability, normal_quantile_on};
+use crate::math::{self, BEST, Fma, angle_on, exp_on, sin_cos_on};
 use crate::vector::{cross, dot, norm};
-use std::f64::consts::FRAC_PI_2;
+use core::f64::consts::FRAC_PI_2;
 
 /// Greatest Δγ, rad: 30°, far beyond measured walls (2° to 10°), and what the series is tested to.
-pub const LARGEST: f64 = std::f64::consts::PI / 6.0;
+pub const LARGEST: f64 = core::f64::consts::PI / 6.0;
 /// Deviates beyond this many standard deviations do not come from draws of 53 bits.
 const FAR: f64 = 8.5;
 /// The smallest probability inverted: half the step of a draw.
@@ -73,7 +73,7 @@ struct Weighted {
 impl Weighted {
     /// The integral from −∞ to `x`.
     #[inline(always)]
-    fn integral(&self, x: f64) -> f64 {
+    fn integral<F: Fma>(&self, f: F, x: f64) -> f64 {
         let (mut real, mut imaginary) = (0.0, 0.0);
         let (mut he, mut before, mut power) = (1.0, 0.0, self.sigma);
         for n in 1..=self.terms {
@@ -89,14 +89,14 @@ impl Weighted {
             (he, before) = (x * he - f64::from(n - 1) * before, he);
             power *= self.sigma / f64::from(n + 1);
         }
-        let density = normal_density(x);
+        let density = normal_density_on(f, x);
         self.sin * (normal_probability(x) - density * real) - self.cos * density * imaginary
     }
 
     /// sin(α + σx) and cos(α + σx).
     #[inline(always)]
-    fn direction(&self, x: f64) -> (f64, f64) {
-        let (s, c) = sin_cos(self.sigma * x);
+    fn direction<F: Fma>(&self, f: F, x: f64) -> (f64, f64) {
+        let (s, c) = sin_cos_on(f, self.sigma * x);
         (self.sin * c + self.cos * s, self.cos * c - self.sin * s)
     }
 }
@@ -121,8 +121,8 @@ impl Scatter {
 
     /// The limits of γ/Δγ.
     #[inline(always)]
-    fn ends(&self, sin: f64, cos: f64) -> (f64, f64) {
-        (-(angle(cos, sin) / self.deviation).min(FAR), (FRAC_PI_2 / self.deviation).min(FAR))
+    fn ends<F: Fma>(&self, f: F, sin: f64, cos: f64) -> (f64, f64) {
+        (-(angle_on(f, cos, sin) / self.deviation).min(FAR), (FRAC_PI_2 / self.deviation).min(FAR))
     }
 
     #[inline(always)]
@@ -132,41 +132,49 @@ impl Scatter {
 
     /// Density of γ (rad) at the angle of incidence α, given by its sine and cosine (both ≥ 0), 1/rad.
     pub fn density(&self, sin: f64, cos: f64, gamma: f64) -> f64 {
+        self.density_on(BEST, sin, cos, gamma)
+    }
+
+    fn density_on<F: Fma>(&self, f: F, sin: f64, cos: f64, gamma: f64) -> f64 {
         let weighted = self.weighted(sin, cos);
-        let (low, high) = self.ends(sin, cos);
+        let (low, high) = self.ends(f, sin, cos);
         let x = gamma / self.deviation;
         if !(low..=high).contains(&x) {
             return 0.0;
         }
-        let whole = weighted.integral(high) - weighted.integral(low);
-        let scale = exp(0.5 * self.deviation * self.deviation);
-        scale * normal_density(x) * weighted.direction(x).0 / (whole * self.deviation)
+        let whole = weighted.integral(f, high) - weighted.integral(f, low);
+        let scale = exp_on(f, 0.5 * self.deviation * self.deviation);
+        scale * normal_density_on(f, x) * weighted.direction(f, x).0 / (whole * self.deviation)
     }
 
     /// γ, rad, in (−α, π/2), for a uniform draw in [0, 1) and the angle of incidence α, given by its sine and cosine (both ≥ 0).
-    #[inline(always)]
     pub fn tilt(&self, sin: f64, cos: f64, draw: f64) -> f64 {
+        self.tilt_on(BEST, sin, cos, draw)
+    }
+
+    #[inline(always)]
+    fn tilt_on<F: Fma>(&self, f: F, sin: f64, cos: f64, draw: f64) -> f64 {
         let weighted = self.weighted(sin, cos);
-        let (mut low, mut high) = self.ends(sin, cos);
-        let from = weighted.integral(low);
+        let (mut low, mut high) = self.ends(f, sin, cos);
+        let from = weighted.integral(f, low);
         let draw = draw.max(SMALLEST);
-        let wanted = draw * (weighted.integral(high) - from);
+        let wanted = draw * (weighted.integral(f, high) - from);
         // where it would be without the shadow's weight
         let below = normal_probability(low);
-        let mut x = normal_quantile((below + draw * (normal_probability(high) - below)).max(SMALLEST));
-        let scale = exp(0.5 * self.deviation * self.deviation);
+        let mut x = normal_quantile_on(f, (below + draw * (normal_probability(high) - below)).max(SMALLEST));
+        let scale = exp_on(f, 0.5 * self.deviation * self.deviation);
         for _ in 0..100 {
             if !(x > low && x < high) {
                 x = 0.5 * (low + high);
             }
-            let excess = weighted.integral(x) - from - wanted;
+            let excess = weighted.integral(f, x) - from - wanted;
             if excess > 0.0 {
                 high = x
             } else {
                 low = x
             }
-            let (s, c) = weighted.direction(x);
-            let slope = scale * normal_density(x) * s;
+            let (s, c) = weighted.direction(f, x);
+            let slope = scale * normal_density_on(f, x) * s;
             let newton = excess / slope;
             // Halley: the logarithmic derivative of the slope is σ cot(α + σx) − x
             let step = newton / (1.0 - 0.5 * newton * (self.deviation * c / s - x));
@@ -180,36 +188,40 @@ impl Scatter {
     }
 
     /// δ, rad, in (−π/2, π/2), for a uniform draw in [0, 1).
-    #[inline(always)]
     pub fn sideways(&self, draw: f64) -> f64 {
+        self.sideways_on(BEST, draw)
+    }
+
+    #[inline(always)]
+    fn sideways_on<F: Fma>(&self, f: F, draw: f64) -> f64 {
         let end = (FRAC_PI_2 / self.deviation).min(FAR);
         let below = normal_probability(-end);
         let p = below + draw * (1.0 - 2.0 * below);
-        self.deviation * normal_quantile(p.clamp(SMALLEST, 1.0 - f64::EPSILON)).clamp(-end, end)
+        self.deviation * normal_quantile_on(f, p.clamp(SMALLEST, 1.0 - f64::EPSILON)).clamp(-end, end)
     }
 
     /// The facet that a sphere meets which moves at `relative` (m/s) to the mean wall and not away from it: its unit normal.
     #[inline(always)]
-    pub(crate) fn facet(&self, relative: &Vec3, normal: &Vec3, draws: [f64; 2]) -> Vec3 {
-        let v_n = (-dot(relative, normal)).max(0.0);
-        let along: Vec3 = std::array::from_fn(|i| v_n.mul_add(normal[i], relative[i]));
-        let v_t = norm(&along);
-        let speed = v_n.mul_add(v_n, v_t * v_t).sqrt();
-        let forward = if v_t > 0.0 { along.map(|c| c / v_t) } else { any_tangent(normal) };
-        let side = cross(normal, &forward);
-        let (s, c) = sin_cos(self.tilt(v_n / speed, v_t / speed, draws[0]));
-        let (s_side, c_side) = sin_cos(self.sideways(draws[1]));
-        let facet: Vec3 = std::array::from_fn(|i| c_side * (c * normal[i] - s * forward[i]) + s_side * side[i]);
-        let length = norm(&facet);
+    pub(crate) fn facet<F: Fma>(&self, f: F, relative: &Vec3, normal: &Vec3, draws: [f64; 2]) -> Vec3 {
+        let v_n = (-dot(f, relative, normal)).max(0.0);
+        let along: Vec3 = core::array::from_fn(|i| f.fma(v_n, normal[i], relative[i]));
+        let v_t = norm(f, &along);
+        let speed = math::sqrt(f.fma(v_n, v_n, v_t * v_t));
+        let forward = if v_t > 0.0 { along.map(|c| c / v_t) } else { any_tangent(f, normal) };
+        let side = cross(f, normal, &forward);
+        let (s, c) = sin_cos_on(f, self.tilt_on(f, v_n / speed, v_t / speed, draws[0]));
+        let (s_side, c_side) = sin_cos_on(f, self.sideways_on(f, draws[1]));
+        let facet: Vec3 = core::array::from_fn(|i| c_side * (c * normal[i] - s * forward[i]) + s_side * side[i]);
+        let length = norm(f, &facet);
         facet.map(|c| c / length)
     }
 }
 
 /// A unit vector along a wall: the coordinate axis nearest to it, laid on it.
-fn any_tangent(normal: &Vec3) -> Vec3 {
+fn any_tangent<F: Fma>(f: F, normal: &Vec3) -> Vec3 {
     let axis = (1..3).fold(0, |best, i| if normal[i].abs() < normal[best].abs() { i } else { best });
     let mut along = normal.map(|n| -normal[axis] * n);
     along[axis] += 1.0;
-    let length = norm(&along);
+    let length = norm(f, &along);
     along.map(|c| c / length)
 }

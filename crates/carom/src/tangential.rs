@@ -13,9 +13,10 @@ pub mod micro_slip;
 pub mod rolling;
 pub mod walton;
 
-use crate::normal::empirical::Curve;
-use crate::wall::NormalResponse;
-use micro_slip::MicroSlip;
+use crate::math::Fma;
+use crate::normal::NormalResponse;
+use crate::normal::empirical::Lookup;
+use micro_slip::{PartialSlip, Shape};
 
 /// How the contact ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -43,8 +44,9 @@ impl Contact {
     }
 }
 
-/// A tangential law, compiled.
-#[derive(Clone, Debug, PartialEq)]
+/// A tangential law, compiled: plain numbers. The shape of a micro-slip law and the pieces of a curve stand in the kernel's tables.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Tangential {
     /// Coulomb friction f, and a contact point that rebounds with β₀ times its slip: 0 is the paper's rolling.
     Friction {
@@ -54,18 +56,20 @@ pub enum Tangential {
         beta: f64,
     },
     /// Partial slip of an elastic contact.
-    MicroSlip(Box<MicroSlip>),
+    MicroSlip(PartialSlip),
     /// e_t of the centre, constant or by angle; the spin stays.
-    Restitution(Curve),
+    Restitution(Lookup),
+    /// No friction was given: enough for impacts without slip, an error for others.
+    NotGiven,
 }
 
 impl Tangential {
-    /// Coulomb friction coefficient f; `None` for laws that give the rebound outright.
+    /// Coulomb friction coefficient f; `None` for laws that give the rebound outright or were given none.
     pub fn friction(&self) -> Option<f64> {
         match self {
             Self::Friction { friction, .. } => Some(*friction),
             Self::MicroSlip(law) => Some(law.friction()),
-            Self::Restitution(_) => None,
+            Self::Restitution(_) | Self::NotGiven => None,
         }
     }
 }
@@ -75,7 +79,7 @@ pub(crate) trait FrictionLaw {
     /// How a contact ends that does not slide to the end.
     const HELD: Contact;
     /// Impulse per mass against a slip speed, m/s: (P, sliding to the end?). `normal_impulse` is (1 + e)v_n.
-    fn impulse(&self, slip: f64, normal_impulse: f64, response: &NormalResponse) -> (f64, bool);
+    fn impulse<F: Fma>(&self, f: F, slip: f64, normal_impulse: f64, response: &NormalResponse) -> (f64, bool);
 }
 
 /// Rolling and Walton's law.
@@ -88,9 +92,28 @@ impl FrictionLaw for Coulomb {
     const HELD: Contact = Contact::Rolling;
 
     #[inline(always)]
-    fn impulse(&self, slip: f64, normal_impulse: f64, response: &NormalResponse) -> (f64, bool) {
+    fn impulse<F: Fma>(&self, _: F, slip: f64, normal_impulse: f64, response: &NormalResponse) -> (f64, bool) {
         let stick = walton::stick_impulse(self.beta, slip);
         let cap = self.friction * response.friction_share * normal_impulse;
         (if cap < stick { cap } else { stick }, cap < stick)
+    }
+}
+
+/// Micro-slip with the shape of its curve.
+pub(crate) struct Shaped<'a> {
+    pub slip: PartialSlip,
+    pub shape: &'a Shape,
+}
+
+impl FrictionLaw for Shaped<'_> {
+    const HELD: Contact = Contact::MicroSlip;
+
+    #[inline(always)]
+    fn impulse<F: Fma>(&self, f: F, slip: f64, normal_impulse: f64, response: &NormalResponse) -> (f64, bool) {
+        let cap = self.slip.friction() * response.friction_share * normal_impulse;
+        let u = slip / self.slip.sliding_slip(f, cap, response.e);
+        // no friction gives no number where there is no slip either
+        let u = if u < 1.0 { u } else { 1.0 };
+        (cap * self.shape.fraction(f, u, response.e), u >= 1.0)
     }
 }

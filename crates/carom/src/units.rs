@@ -110,6 +110,8 @@ quantities! {
     MassFlow, "mass flow", [0, 1, -1, 0], "kg/s", "1 g/s";
     /// The damping coefficients C_A and C_H, s/m.
     InverseSpeed, "damping coefficient", [-1, 0, 1, 0], "s/m", "1.3 s/m";
+    /// An energy, J.
+    Energy, "energy", [2, 1, -2, 0], "J", "1e-15 J";
     /// A frequency, 1/s.
     Frequency, "frequency", [0, 0, -1, 0], "1/s", "100 Hz";
     /// Turbulent kinetic energy per mass, m²/s².

@@ -78,7 +78,7 @@ proptest! {
     #[test]
     fn bytes_never_panic_a_reader(bytes in prop::collection::vec(any::<u8>(), 0..200)) {
         let text = String::from_utf8_lossy(&bytes);
-        let _ = parse_law(&text).map(|law| law.compile(&Library::builtin()));
+        let _ = parse_law(&text).map(|law| law.compile(Library::builtin()));
         let _ = parse_named_law(&text, "x");
         let _ = Library::default().extend_from_toml(&text);
         let _ = Material::from_inline(&text);
@@ -94,7 +94,7 @@ proptest! {
 
     #[test]
     fn laws_of_any_shape_answer_or_say_why(text in fragments(), v in -12.0..6.0f64, d in -9.5..0.5f64) {
-        if let Ok(law) = parse_law(&text).and_then(|l| l.compile(&Library::builtin())) {
+        if let Ok(law) = parse_law(&text).and_then(|l| l.compile(Library::builtin())) {
             let (v, d) = (10f64.powf(v), 10f64.powf(d));
             if let Ok(out) = law.impact(&Impact::new(d, [0.3 * v, -v, 0.0], [0.0, 1.0, 0.0])) {
                 prop_assert!((0.0..=1.0).contains(&out.restitution), "{text}: {out:?}");

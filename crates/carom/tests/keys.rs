@@ -3,6 +3,7 @@
 
 use carom::error::ErrorKind;
 use carom::material::Library;
+use carom::normal::Loss;
 use carom::spec::{Choice, Key, LawSpec, NormalKind, NormalSpec, TangentialKind, parse_law};
 use carom::{Impact, WallLaw};
 use std::sync::LazyLock;
@@ -12,7 +13,9 @@ static LIBRARY: LazyLock<Library> = LazyLock::new(|| Library::builtin().clone())
 /// Every normal law and every loss alone with every tangential law, without the keys that only some of them read.
 fn laws() -> Vec<LawSpec> {
     let named = NormalKind::ALL.iter().map(|k| NormalSpec::from(*k));
-    let listed = carom::normal::Loss::ALL.iter().map(|l| NormalSpec::from([*l]));
+    // a well as deep on both ways takes nothing by itself; it is tried in `dahneke`
+    let losses = Loss::ALL.iter().filter(|l| **l != Loss::AdhesionWell);
+    let listed = losses.map(|l| NormalSpec::from([*l]));
     let normals: Vec<NormalSpec> = named.chain(listed).collect();
     let base = "sphere = \"copper\"\nsurface = \"inconel-718\"\nnormal = \"ea\"\n";
     let mut laws = Vec::new();
@@ -40,7 +43,7 @@ fn values(key: Key, law: &LawSpec) -> [&'static str; 2] {
         Key::RoughnessAngle => ["0", "5 deg"],
         Key::AdhesionDamping => ["1.3 s/m", "1.5 s/m"],
         Key::HertzDamping => ["0.007 s/m", "0.008 s/m"],
-        Key::SurfaceCurvature => ["inf", "1 mm"],
+        Key::SurfaceCurvature => ["inf", "-30 um"],
         Key::Restitution => curve(law.normal.as_ref().is_none_or(|n| n.value != NormalKind::ByAngle.into())),
         Key::TangentialRestitution => {
             curve(law.tangential.as_ref().is_none_or(|t| t.value == TangentialKind::Constant))
@@ -54,6 +57,10 @@ fn values(key: Key, law: &LawSpec) -> [&'static str; 2] {
         // far enough apart that even laws which only judge the contact's size by it differ at some speed
         Key::Stiffness => ["60 GPa", "0.6 GPa"],
         Key::PlasticConstant => ["145 MPa", "150 MPa"],
+        Key::WellDepth => ["1 fJ", "2 fJ"],
+        Key::WellDepthOut => ["2 fJ", "3 fJ"],
+        Key::HamakerConstant => ["300 zJ", "3 aJ"],
+        Key::DynamicStrengthFactor => ["1", "2"],
         Key::Adhesion => ["separation-only", "reversible"],
         other => panic!("no values for {other}: add two"),
     }
@@ -78,6 +85,14 @@ fn completed(law: &LawSpec, key: Key) -> LawSpec {
         if needed != key && law.reads(needed) && !excluded {
             let value = values(needed, &law)[0];
             law.set_text(needed, value).unwrap_or_else(|e| panic!("{needed} = {value}: {e}"));
+        }
+    }
+    if law.reads(Key::WellDepth) {
+        let by_constant = matches!(key, Key::HamakerConstant | Key::EquilibriumSpacing);
+        let well =
+            if by_constant { [Key::HamakerConstant, Key::EquilibriumSpacing].as_slice() } else { &[Key::WellDepth] };
+        for needed in well.iter().filter(|k| **k != key) {
+            law.set_text(*needed, values(*needed, &law)[0]).expect("a number");
         }
     }
     if key == Key::InterfacialParameter {
@@ -105,9 +120,12 @@ fn with(law: &LawSpec, key: Key, value: &str) -> Result<WallLaw, carom::LawError
 fn answers(wall: &WallLaw) -> String {
     let mut said = String::new();
     for speed in [0.02, 0.3, 3.0, 30.0, 300.0] {
-        let mut impact = Impact::new(50e-6, [0.7 * speed, -speed, 0.0], [0.0, 1.0, 0.0]);
-        impact.draws = [0.3, 0.6, 0.2, 0.8];
-        said += &format!("{:?}", wall.impact(&impact).map(|o| (o.velocity, o.spin, o.validity)));
+        // one rolls at the end, one slides, and one is small enough for adhesion to matter
+        for (along, diameter) in [(0.3, 50e-6), (5.0, 50e-6), (0.3, 0.3e-6)] {
+            let mut impact = Impact::new(diameter, [along * speed, -speed, 0.0], [0.0, 1.0, 0.0]);
+            impact.draws = [0.3, 0.6, 0.2, 0.8];
+            said += &format!("{:?}", wall.impact(&impact).map(|o| (o.velocity, o.spin, o.validity)));
+        }
     }
     said + &format!("{:?} {:?}", wall.window(50e-6, None), wall.adhesion_numbers(50e-6))
 }

@@ -9,7 +9,7 @@ use carom::{Contact, Impact, Outcome, WallLaw};
 use common::law;
 use std::collections::BTreeMap;
 
-const EXPERIMENT: &str = include_str!("../../../data/experiments/kharaz-2001.toml");
+const EXPERIMENT: &str = include_str!("../../carom-lab/data/experiments/kharaz-2001.toml");
 
 #[derive(serde::Deserialize)]
 struct File {

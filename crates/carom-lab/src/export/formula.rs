@@ -14,8 +14,8 @@ use super::polynomial::{self, Points};
 use super::sample::{Cell, Sample, by_angle, captured, components, rebound};
 use super::{Span, rounded};
 use crate::error::LabError;
+use carom::normal::NormalLaw;
 use carom::tangential::Tangential;
-use carom::wall::NormalLaw;
 use carom::{WallLaw, math};
 
 /// u of x.

@@ -145,7 +145,9 @@ pub fn survey(
     for subject in subjects {
         let named = |error: SpecError| LabError::Fit(error.within(&subject.name));
         let mut law = subject.law.clone();
-        law.friction = law.friction.or(Some(Number(0.0).into()));
+        if law.friction.is_none() && law.reads(Key::Friction) {
+            law.friction = Some(Number(0.0).into());
+        }
         let fit = fit(&law, free, &subject.data, library, options).map_err(|e| match e {
             LabError::Fit(error) => named(error),
             other => other,

@@ -11,7 +11,7 @@ use carom_report::significant;
 use evaluator::{Variables, evaluate};
 
 fn law(text: &str) -> WallLaw {
-    parse_law(text).expect("a law").compile(&Library::builtin()).expect("it compiles")
+    parse_law(text).expect("a law").compile(Library::builtin()).expect("it compiles")
 }
 
 const COPPER: &str = "sphere = \"copper\"\nsurface = \"glass\"\nfriction = 0.2\nroughness_factor = 0.8\n";

@@ -1,43 +1,28 @@
-//! Drawing in CSS pixels on plotters' SVG backend.
-//!
-//! The backend's coordinates are whole numbers, which would make curves visibly ragged, so everything is drawn on a
-//! grid of [`FINE`] steps a pixel, and the document's `viewBox` scales it back.
+//! A picture as a list of elements in CSS pixels, for the writers of SVG and PNG.
 
-use plotters::backend::SVGBackend;
-use plotters::coord::Shift;
-use plotters::drawing::{DrawingArea, IntoDrawingArea};
-use plotters::element::{Circle, DashedPathElement, Drawable, PathElement, PointCollection, Polygon, Rectangle, Text};
-use plotters::style::text_anchor::{HPos, Pos, VPos};
-use plotters::style::{Color as _, FontDesc, FontFamily, FontStyle, FontTransform, RGBColor, ShapeStyle, TextStyle};
-
-use super::{Color, Dash, Marker, font};
-use crate::ReportError;
-
-/// Grid steps a CSS pixel.
-const FINE: f64 = 10.0;
-
-/// Ratio of plotters' font size to the one its SVG backend writes.
-const FONT_RATIO: f64 = 1.24;
+use super::{Color, Dash, Marker};
 
 /// A point in CSS pixels from the upper left.
 pub(super) type Point = [f64; 2];
 
-/// A stroke: colour, width in CSS pixels, opacity.
+/// A stroke: colour, width in CSS pixels. Ends and corners are round.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Stroke {
     pub color: Color,
     pub width: f64,
-    pub opacity: f64,
 }
 
 impl Stroke {
     pub(super) fn new(color: Color, width: f64) -> Self {
-        Self { color, width, opacity: 1.0 }
+        Self { color, width }
     }
+}
 
-    fn style(self) -> ShapeStyle {
-        RGBColor::from(self.color).mix(self.opacity).stroke_width((self.width * FINE).round() as u32)
-    }
+/// The colour of an area and its opacity from 0 to 1.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Fill {
+    pub color: Color,
+    pub opacity: f64,
 }
 
 /// Which end of a text lies at its point.
@@ -49,7 +34,7 @@ pub(super) enum Anchor {
 }
 
 /// A line of text.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub(super) struct Label<'t> {
     pub text: &'t str,
     pub size: f64,
@@ -65,17 +50,50 @@ impl<'t> Label<'t> {
     }
 }
 
-fn fine(value: f64) -> i32 {
-    // `as` saturates, and callers have clipped to the picture.
-    (value * FINE).round() as i32
+/// What a picture is made of, each above those before it.
+#[derive(Debug, Clone)]
+pub(super) enum Element {
+    /// A line through points, with lengths of dash and gap where it is broken.
+    Line {
+        points: Vec<Point>,
+        stroke: Stroke,
+        dashes: Option<[f64; 2]>,
+    },
+    Polygon {
+        points: Vec<Point>,
+        fill: Fill,
+    },
+    /// From the upper left corner to the lower right one.
+    Rectangle {
+        from: Point,
+        to: Point,
+        fill: Fill,
+    },
+    Disc {
+        center: Point,
+        radius: f64,
+        color: Color,
+    },
+    /// Text with its baseline at the point.
+    Text {
+        at: Point,
+        text: String,
+        size: f64,
+        color: Color,
+        anchor: Anchor,
+        upright: bool,
+    },
 }
 
-fn grid(point: &Point) -> (i32, i32) {
-    (fine(point[0]), fine(point[1]))
+/// The picture being drawn, on white ground.
+#[derive(Debug)]
+pub(super) struct Canvas {
+    pub size: (u32, u32),
+    pub elements: Vec<Element>,
 }
 
-/// The points of a line on the grid, without those closer to the last one than anybody sees.
-fn thinned(points: &[Point]) -> Vec<(i32, i32)> {
+/// A line's points without those closer to the last one than anybody sees.
+fn thinned(points: &[Point]) -> Vec<Point> {
     const CLOSE: f64 = 0.4;
     let mut kept: Vec<Point> = Vec::with_capacity(points.len());
     for (i, point) in points.iter().enumerate() {
@@ -85,105 +103,68 @@ fn thinned(points: &[Point]) -> Vec<(i32, i32)> {
             kept.push(*point);
         }
     }
-    kept.iter().map(grid).collect()
+    kept
 }
 
-/// The picture being drawn.
-pub(super) struct Canvas<'b> {
-    area: DrawingArea<SVGBackend<'b>, Shift>,
-}
-
-/// Draws a picture of the given size and returns the SVG document.
-pub(super) fn document(
-    size: (u32, u32),
-    draw: impl FnOnce(&Canvas<'_>) -> Result<(), ReportError>,
-) -> Result<String, ReportError> {
-    let (width, height) = (size.0.max(1), size.1.max(1));
-    let grid = (width.saturating_mul(FINE as u32), height.saturating_mul(FINE as u32));
-    let mut svg = String::new();
-    {
-        let canvas = Canvas { area: SVGBackend::with_string(&mut svg, grid).into_drawing_area() };
-        canvas.rectangle([0.0, 0.0], [f64::from(width), f64::from(height)], Color(255, 255, 255), 1.0)?;
-        draw(&canvas)?;
-        canvas.area.present().map_err(|e| ReportError::draw("SVG", e))?;
-    }
-    let from = format!("<svg width=\"{}\" height=\"{}\"", grid.0, grid.1);
-    let to = format!("<svg width=\"{width}\" height=\"{height}\" stroke-linejoin=\"round\" stroke-linecap=\"round\"");
-    Ok(svg.replacen(&from, &to, 1))
-}
-
-impl<'b> Canvas<'b> {
-    fn put<'e, E>(&self, element: &'e E) -> Result<(), ReportError>
-    where
-        &'e E: PointCollection<'e, (i32, i32)>,
-        E: Drawable<SVGBackend<'b>>,
-    {
-        self.area.draw(element).map_err(|e| ReportError::draw("SVG", e))
+impl Canvas {
+    /// An empty picture of at least one pixel.
+    pub(super) fn new(size: (u32, u32)) -> Self {
+        let size = (size.0.max(1), size.1.max(1));
+        let mut canvas = Self { size, elements: Vec::new() };
+        canvas.rectangle([0.0, 0.0], [f64::from(size.0), f64::from(size.1)], Color(255, 255, 255), 1.0);
+        canvas
     }
 
-    pub(super) fn line(&self, points: &[Point], stroke: Stroke) -> Result<(), ReportError> {
-        let path = thinned(points);
-        self.put(&PathElement::new(path, stroke.style()))
+    pub(super) fn line(&mut self, points: &[Point], stroke: Stroke) {
+        self.dashed(points, stroke, Dash::Solid);
     }
 
-    pub(super) fn dashed(&self, points: &[Point], stroke: Stroke, dash: Dash) -> Result<(), ReportError> {
+    pub(super) fn dashed(&mut self, points: &[Point], stroke: Stroke, dash: Dash) {
         // The ends are round: they add a width to a dash and take it from the gap.
-        let (length, gap) = match dash {
-            Dash::Solid => return self.line(points, stroke),
-            Dash::Dashed => (fine(3.2 * stroke.width), fine(3.6 * stroke.width)),
-            Dash::Dotted => (1, fine(2.4 * stroke.width)),
+        let dashes = match dash {
+            Dash::Solid => None,
+            Dash::Dashed => Some([3.2 * stroke.width, 3.6 * stroke.width]),
+            Dash::Dotted => Some([0.1, 2.4 * stroke.width]),
         };
-        let path = thinned(points);
-        self.put(&DashedPathElement::new(path, length, gap, stroke.style()))
+        self.elements.push(Element::Line { points: thinned(points), stroke, dashes });
     }
 
-    pub(super) fn polygon(&self, points: &[Point], color: Color, opacity: f64) -> Result<(), ReportError> {
-        let path: Vec<_> = points.iter().map(grid).collect();
-        self.put(&Polygon::new(path, RGBColor::from(color).mix(opacity)))
+    pub(super) fn polygon(&mut self, points: &[Point], color: Color, opacity: f64) {
+        self.elements.push(Element::Polygon { points: points.to_vec(), fill: Fill { color, opacity } });
     }
 
-    pub(super) fn rectangle(&self, from: Point, to: Point, color: Color, opacity: f64) -> Result<(), ReportError> {
-        self.put(&Rectangle::new([grid(&from), grid(&to)], RGBColor::from(color).mix(opacity).filled()))
+    /// The rectangle between two opposite corners.
+    pub(super) fn rectangle(&mut self, a: Point, b: Point, color: Color, opacity: f64) {
+        let (from, to) = ([0, 1].map(|i| a[i].min(b[i])), [0, 1].map(|i| a[i].max(b[i])));
+        self.elements.push(Element::Rectangle { from, to, fill: Fill { color, opacity } });
     }
 
-    pub(super) fn marker(&self, at: Point, marker: Marker, radius: f64, color: Color) -> Result<(), ReportError> {
+    pub(super) fn marker(&mut self, at: Point, marker: Marker, radius: f64, color: Color) {
         let [x, y] = at;
         let r = radius;
         match marker {
-            Marker::Circle => self.put(&Circle::new(grid(&at), fine(r), RGBColor::from(color).filled())),
+            Marker::Circle => self.elements.push(Element::Disc { center: at, radius, color }),
             Marker::Square => {
                 let h = 0.9 * r;
-                self.rectangle([x - h, y - h], [x + h, y + h], color, 1.0)
+                self.rectangle([x - h, y - h], [x + h, y + h], color, 1.0);
             }
             Marker::Triangle => {
                 let (w, h) = (1.2 * r, 0.65 * r);
-                self.polygon(&[[x, y - 1.3 * r], [x + w, y + h], [x - w, y + h]], color, 1.0)
+                self.polygon(&[[x, y - 1.3 * r], [x + w, y + h], [x - w, y + h]], color, 1.0);
             }
             Marker::Cross => {
                 let stroke = Stroke::new(color, (0.45 * r).max(1.0));
-                self.line(&[[x - r, y - r], [x + r, y + r]], stroke)?;
-                self.line(&[[x - r, y + r], [x + r, y - r]], stroke)
+                self.line(&[[x - r, y - r], [x + r, y + r]], stroke);
+                self.line(&[[x - r, y + r], [x + r, y - r]], stroke);
             }
         }
     }
 
     /// Draws text with its baseline at the point.
-    pub(super) fn text(&self, at: Point, label: Label<'_>) -> Result<(), ReportError> {
-        if label.text.is_empty() {
-            return Ok(());
+    pub(super) fn text(&mut self, at: Point, label: Label<'_>) {
+        let Label { text, size, color, anchor, upright } = label;
+        if !text.is_empty() {
+            self.elements.push(Element::Text { at, text: text.to_owned(), size, color, anchor, upright });
         }
-        let h = match label.anchor {
-            Anchor::Start => HPos::Left,
-            Anchor::Middle => HPos::Center,
-            Anchor::End => HPos::Right,
-        };
-        let font = FontDesc::new(FontFamily::Name(font::FAMILY), label.size * FINE * FONT_RATIO, FontStyle::Normal);
-        let font = if label.upright { font.transform(FontTransform::Rotate270) } else { font };
-        let color = RGBColor::from(label.color);
-        let style = TextStyle::from(font).color(&color).pos(Pos::new(h, VPos::Bottom));
-        // The backend lifts such text by half an ex, a quarter of the font size.
-        let lift = 0.25 * label.size;
-        let at = if label.upright { [at[0] + lift, at[1]] } else { [at[0], at[1] + lift] };
-        self.put(&Text::new(label.text, grid(&at), style))
     }
 }

@@ -1,8 +1,5 @@
 //! Colours that people with any kind of colour vision tell apart.
 
-use plotters::style::RGBColor;
-use plotters::style::colors::colormaps::{ColorMap as _, ViridisRGB};
-
 /// A colour: red, green and blue, 0 to 255.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Color(pub u8, pub u8, pub u8);
@@ -42,11 +39,17 @@ impl Color {
     }
 }
 
-impl From<Color> for RGBColor {
-    fn from(Color(red, green, blue): Color) -> Self {
-        Self(red, green, blue)
-    }
-}
+/// Viridis (Nuñez et al. 2018, DOI 10.1371/journal.pone.0199239) at equal steps, low to high.
+const VIRIDIS: [Color; 8] = [
+    Color(68, 1, 84),
+    Color(70, 50, 127),
+    Color(54, 92, 141),
+    Color(39, 127, 143),
+    Color(31, 162, 136),
+    Color(74, 194, 110),
+    Color(160, 219, 57),
+    Color(254, 232, 37),
+];
 
 /// How a heat map turns a value into a colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -64,8 +67,9 @@ impl ColorMap {
         let share = share.clamp(0.0, 1.0);
         match self {
             Self::Viridis => {
-                let RGBColor(red, green, blue) = ViridisRGB.get_color(share);
-                Color(red, green, blue)
+                let at = share * (VIRIDIS.len() - 1) as f64;
+                let low = (at as usize).min(VIRIDIS.len() - 2);
+                VIRIDIS[low].mix(VIRIDIS[low + 1], at - low as f64)
             }
             Self::Diverging => {
                 let end = if share < 0.5 { Color::BLUE } else { Color::VERMILION };

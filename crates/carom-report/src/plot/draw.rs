@@ -1,6 +1,6 @@
 //! Drawing a plot: settle the axes, lay out, draw from the back to the front.
 
-use super::canvas::{self, Canvas, Point, Stroke};
+use super::canvas::{Canvas, Point, Stroke};
 use super::clip::Rect;
 use super::frame::Frame;
 use super::occupied::Occupied;
@@ -14,7 +14,7 @@ pub(super) const BAND: f64 = 0.22;
 pub(super) const BAR: f64 = 0.6;
 const WALL: Color = Color(70, 70, 70);
 
-pub(super) fn plot(plot: &Plot) -> Result<String, ReportError> {
+pub(super) fn plot(plot: &Plot) -> Result<Canvas, ReportError> {
     plot.series.iter().try_for_each(Series::check)?;
     let series = colored(&plot.series);
     let legend_size = legend::size(&series).filter(|_| plot.legend != Legend::Hidden);
@@ -36,26 +36,28 @@ pub(super) fn plot(plot: &Plot) -> Result<String, ReportError> {
         }
     }
 
-    canvas::document(frame.size, |canvas| {
-        frame.grid(canvas)?;
-        // Areas first: they would wash out what lies under them.
-        let area = |s: &Series| matches!(s.shape, Shape::Band { .. } | Shape::Bars { .. });
-        for (series, color) in series.iter().filter(|(s, _)| area(s)) {
-            draw_area(canvas, &frame, series, *color)?;
+    let mut canvas = Canvas::new(frame.size);
+    frame.grid(&mut canvas);
+    // Areas first: they would wash out what lies under them.
+    let area = |s: &Series| matches!(s.shape, Shape::Band { .. } | Shape::Bars { .. });
+    for (series, color) in series.iter().filter(|(s, _)| area(s)) {
+        draw_area(&mut canvas, &frame, series, *color);
+    }
+    reference::draw_lines(&mut canvas, &references);
+    for (series, color) in series.iter().filter(|(s, _)| !area(s)) {
+        draw_series(&mut canvas, &frame, series, *color);
+    }
+    frame.axes(&mut canvas, &plot.title, &plot.x, &plot.y);
+    for [from, to] in &plot.walls {
+        for piece in frame.rect.polyline([frame.point(from[0], from[1]), frame.point(to[0], to[1])]) {
+            canvas.line(&piece, Stroke::new(WALL, 4.0));
         }
-        reference::draw_lines(canvas, &references)?;
-        for (series, color) in series.iter().filter(|(s, _)| !area(s)) {
-            draw_series(canvas, &frame, series, *color)?;
-        }
-        frame.axes(canvas, &plot.title, &plot.x, &plot.y)?;
-        for [from, to] in &plot.walls {
-            for piece in frame.rect.polyline([frame.point(from[0], from[1]), frame.point(to[0], to[1])]) {
-                canvas.line(&piece, Stroke::new(WALL, 4.0))?;
-            }
-        }
-        reference::draw_labels(canvas, &references)?;
-        legend_at.map_or(Ok(()), |rect| legend::draw(canvas, &series, &rect))
-    })
+    }
+    reference::draw_labels(&mut canvas, &references);
+    if let Some(rect) = legend_at {
+        legend::draw(&mut canvas, &series, &rect);
+    }
+    Ok(canvas)
 }
 
 /// The series with their colours; those without one of their own take the palette's in turn.
@@ -158,72 +160,57 @@ pub(super) fn areas(frame: &Frame, shape: &Shape) -> Vec<Vec<Point>> {
     polygons
 }
 
-fn draw_area(canvas: &Canvas<'_>, frame: &Frame, series: &Series, color: Color) -> Result<(), ReportError> {
+fn draw_area(canvas: &mut Canvas, frame: &Frame, series: &Series, color: Color) {
     let bars = matches!(series.shape, Shape::Bars { .. });
     for mut polygon in areas(frame, &series.shape) {
-        canvas.polygon(&polygon, color, if bars { BAR } else { BAND })?;
+        canvas.polygon(&polygon, color, if bars { BAR } else { BAND });
         if bars {
             polygon.push(polygon[0]);
-            canvas.line(&polygon, Stroke::new(color, 1.0))?;
+            canvas.line(&polygon, Stroke::new(color, 1.0));
         }
     }
-    Ok(())
 }
 
-fn draw_series(canvas: &Canvas<'_>, frame: &Frame, series: &Series, color: Color) -> Result<(), ReportError> {
+fn draw_series(canvas: &mut Canvas, frame: &Frame, series: &Series, color: Color) {
     match &series.shape {
         Shape::Line { x, y, dash } => {
             for piece in frame.rect.polyline(outline(frame, x, y)) {
-                canvas.dashed(&piece, Stroke::new(color, 2.0), *dash)?;
+                canvas.dashed(&piece, Stroke::new(color, 2.0), *dash);
             }
         }
         Shape::Points { x, y, interval, marker } => {
             for (x, (low, high)) in x.iter().zip(interval) {
-                draw_error_bar(canvas, frame, *x, (*low, *high), color)?;
+                draw_error_bar(canvas, frame, *x, (*low, *high), color);
             }
-            draw_markers(canvas, frame, &outline(frame, x, y), *marker, color)?;
+            draw_markers(canvas, frame, &outline(frame, x, y), *marker, color);
         }
         Shape::Band { .. } | Shape::Bars { .. } => {}
     }
-    Ok(())
 }
 
-fn draw_markers(
-    canvas: &Canvas<'_>,
-    frame: &Frame,
-    points: &[Option<Point>],
-    marker: Marker,
-    color: Color,
-) -> Result<(), ReportError> {
+fn draw_markers(canvas: &mut Canvas, frame: &Frame, points: &[Option<Point>], marker: Marker, color: Color) {
     let radius = match points.len() {
         0..=100 => 4.0,
         101..=1000 => 3.0,
         _ => 2.0,
     };
     let inside = |p: &&Point| frame.rect.grown(0.5).contains(**p);
-    points.iter().flatten().filter(inside).try_for_each(|p| canvas.marker(*p, marker, radius, color))
+    points.iter().flatten().filter(inside).for_each(|p| canvas.marker(*p, marker, radius, color));
 }
 
-fn draw_error_bar(
-    canvas: &Canvas<'_>,
-    frame: &Frame,
-    x: f64,
-    (low, high): (f64, f64),
-    color: Color,
-) -> Result<(), ReportError> {
+fn draw_error_bar(canvas: &mut Canvas, frame: &Frame, x: f64, (low, high): (f64, f64), color: Color) {
     let (Some(x), Some(low), Some(high)) = (frame.x.share(x), frame.y.share_or_low(low), frame.y.share_or_low(high))
     else {
-        return Ok(());
+        return;
     };
     let stroke = Stroke::new(color, 1.2);
     let (low, high) = (frame.place(x, low), frame.place(x, high));
     for piece in frame.rect.polyline([Some(low), Some(high)]) {
-        canvas.line(&piece, stroke)?;
+        canvas.line(&piece, stroke);
     }
     for end in [low, high] {
         if frame.rect.contains(end) {
-            canvas.line(&[[end[0] - 4.0, end[1]], [end[0] + 4.0, end[1]]], stroke)?;
+            canvas.line(&[[end[0] - 4.0, end[1]], [end[0] + 4.0, end[1]]], stroke);
         }
     }
-    Ok(())
 }

@@ -1,22 +1,32 @@
-//! DejaVu Sans from inside the crate: how wide text is, and the font that PNG text is drawn with.
+//! DejaVu Sans from inside the crate: how wide text is, and the letters of PNG text.
 
-use skrifa::instance::{LocationRef, Size};
-use skrifa::{FontRef, MetadataProvider};
+use std::sync::LazyLock;
+
+use ttf_parser::{Face, GlyphId};
 
 /// Families for SVG text; Verdana is about as wide where DejaVu Sans is not installed.
 pub(super) const FAMILY: &str = "DejaVu Sans, Verdana, sans-serif";
 
-pub(super) fn bytes() -> &'static [u8] {
-    dejavu::sans::regular()
-}
+pub(super) static FACE: LazyLock<Option<Face<'static>>> =
+    LazyLock::new(|| Face::parse(dejavu::sans::regular(), 0).ok());
 
 /// Width of one line of text at a font size, both in CSS pixels.
 pub(super) fn width(text: &str, size: f64) -> f64 {
-    let Ok(font) = FontRef::new(bytes()) else {
+    let Some(face) = FACE.as_ref() else {
         return 0.6 * size * text.chars().count() as f64;
     };
-    let metrics = font.glyph_metrics(Size::new(size as f32), LocationRef::default());
-    let map = font.charmap();
-    let advance = |c| metrics.advance_width(map.map(c).unwrap_or_default()).unwrap_or_default();
-    text.chars().map(advance).sum::<f32>().into()
+    scale(face, size) * glyphs(face, text).map(|(_, advance)| advance).sum::<f64>()
+}
+
+/// CSS pixels for each unit of the font.
+pub(super) fn scale(face: &Face<'_>, size: f64) -> f64 {
+    size / f64::from(face.units_per_em())
+}
+
+/// The glyphs of a line of text, each with its width in the font's units. What the font lacks is shown as its empty box, glyph 0.
+pub(super) fn glyphs(face: &Face<'_>, text: &str) -> impl Iterator<Item = (GlyphId, f64)> {
+    text.chars().map(|c| {
+        let glyph = face.glyph_index(c).unwrap_or_default();
+        (glyph, face.glyph_hor_advance(glyph).unwrap_or_default().into())
+    })
 }

@@ -5,7 +5,6 @@ use super::clip::Rect;
 use super::scaled::Scaled;
 use super::ticks::Tick;
 use super::{Axis, Color, font};
-use crate::ReportError;
 
 pub(super) const TITLE: f64 = 18.0;
 pub(super) const LABEL: f64 = 15.0;
@@ -100,49 +99,48 @@ impl Frame {
         [self.rect.left + x * self.rect.width(), self.rect.bottom - y * self.rect.height()]
     }
 
-    pub(super) fn grid(&self, canvas: &Canvas<'_>) -> Result<(), ReportError> {
+    pub(super) fn grid(&self, canvas: &mut Canvas) {
         // All the fine lines first, so that none crosses over a stronger one.
         for strong in [false, true] {
             let (color, width) = if strong { (GRID, 1.0) } else { (FINE_GRID, 0.8) };
             let stroke = Stroke::new(color, width);
             for (share, _) in self.x_ticks.iter().filter(|(_, t)| t.label.is_some() == strong) {
-                canvas.line(&[self.place(*share, 0.0), self.place(*share, 1.0)], stroke)?;
+                canvas.line(&[self.place(*share, 0.0), self.place(*share, 1.0)], stroke);
             }
             for (share, _) in self.y_ticks.iter().filter(|(_, t)| t.label.is_some() == strong) {
-                canvas.line(&[self.place(0.0, *share), self.place(1.0, *share)], stroke)?;
+                canvas.line(&[self.place(0.0, *share), self.place(1.0, *share)], stroke);
             }
         }
-        Ok(())
     }
 
     /// Edges, divisions, numbers, labels and title.
-    pub(super) fn axes(&self, canvas: &Canvas<'_>, title: &str, x: &Axis, y: &Axis) -> Result<(), ReportError> {
+    pub(super) fn axes(&self, canvas: &mut Canvas, title: &str, x: &Axis, y: &Axis) {
         let Rect { left, top, right, bottom } = self.rect;
         let stroke = Stroke::new(EDGE, 1.0);
-        canvas.line(&[[left, top], [left, bottom], [right, bottom], [right, top], [left, top]], stroke)?;
+        canvas.line(&[[left, top], [left, bottom], [right, bottom], [right, top], [left, top]], stroke);
         for (share, tick) in &self.x_ticks {
             let [at, _] = self.place(*share, 0.0);
             let length = if tick.label.is_some() { 5.0 } else { 3.0 };
-            canvas.line(&[[at, bottom], [at, bottom + length]], stroke)?;
+            canvas.line(&[[at, bottom], [at, bottom + length]], stroke);
             if let Some(text) = &tick.label {
-                canvas.text([at, bottom + 20.0], Label::new(text, TICK, Anchor::Middle))?;
+                canvas.text([at, bottom + 20.0], Label::new(text, TICK, Anchor::Middle));
             }
         }
         for (share, tick) in &self.y_ticks {
             let [_, at] = self.place(0.0, *share);
             let length = if tick.label.is_some() { 5.0 } else { 3.0 };
-            canvas.line(&[[left - length, at], [left, at]], stroke)?;
+            canvas.line(&[[left - length, at], [left, at]], stroke);
             if let Some(text) = &tick.label {
-                canvas.text([left - 9.0, at + 0.36 * TICK], Label::new(text, TICK, Anchor::End))?;
+                canvas.text([left - 9.0, at + 0.36 * TICK], Label::new(text, TICK, Anchor::End));
             }
         }
         let middle = self.place(0.5, 0.5);
-        canvas.text([middle[0], bottom + 46.0], Label::new(&x.heading(), LABEL, Anchor::Middle))?;
+        canvas.text([middle[0], bottom + 46.0], Label::new(&x.heading(), LABEL, Anchor::Middle));
         let heading = y.heading();
-        canvas.text([22.0, middle[1]], Label { upright: true, ..Label::new(&heading, LABEL, Anchor::Middle) })?;
+        canvas.text([22.0, middle[1]], Label { upright: true, ..Label::new(&heading, LABEL, Anchor::Middle) });
         // Over the frame's middle where that fits, else within the picture.
         let half = 0.5 * font::width(title, TITLE) + 8.0;
         let at = middle[0].min(f64::from(self.size.0) - half).max(half);
-        canvas.text([at, 32.0], Label::new(title, TITLE, Anchor::Middle))
+        canvas.text([at, 32.0], Label::new(title, TITLE, Anchor::Middle));
     }
 }

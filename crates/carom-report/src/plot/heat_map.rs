@@ -2,11 +2,13 @@
 
 use std::path::Path;
 
-use super::canvas::{self, Anchor, Canvas, Label, Stroke};
+use super::canvas::{Anchor, Canvas, Label, Stroke};
 use super::frame::{Frame, LABEL, TICK, vertical_ticks, widest};
+#[cfg(feature = "png")]
+use super::png;
 use super::scaled::{Margin, Scaled};
 use super::ticks::Tick;
-use super::{Axis, Color, ColorMap, ImageFormat, SIZE, png, write_image};
+use super::{Axis, Color, ColorMap, ImageFormat, SIZE, svg, write_image};
 use crate::ReportError;
 
 /// Colour of a cell without a value.
@@ -89,6 +91,10 @@ impl HeatMap {
     /// # Errors
     /// [`TableError::Mismatch`](carom_table::TableError::Mismatch) where the number of values does not fit the edges.
     pub fn svg(&self) -> Result<String, ReportError> {
+        Ok(svg::document(&self.drawn()?))
+    }
+
+    fn drawn(&self) -> Result<Canvas, ReportError> {
         let (columns, rows) = (self.x_edges.len().saturating_sub(1), self.y_edges.len().saturating_sub(1));
         if self.values.len() != columns * rows {
             let got = self.values.len();
@@ -106,14 +112,14 @@ impl HeatMap {
         let beside =
             18.0 + BAR_WIDTH + 9.0 + widest(&ticks) + if self.value.heading().is_empty() { 14.0 } else { 38.0 };
         let frame = Frame::new(&self.title, (&self.x, &self.y), (x, y), self.size, beside);
-        canvas::document(frame.size, |canvas| {
-            self.draw_cells(canvas, &frame, &value)?;
-            self.draw_bar(canvas, &frame, &ticks)?;
-            frame.axes(canvas, &self.title, &self.x, &self.y)
-        })
+        let mut canvas = Canvas::new(frame.size);
+        self.draw_cells(&mut canvas, &frame, &value);
+        self.draw_bar(&mut canvas, &frame, &ticks);
+        frame.axes(&mut canvas, &self.title, &self.x, &self.y);
+        Ok(canvas)
     }
 
-    fn draw_cells(&self, canvas: &Canvas<'_>, frame: &Frame, value: &Scaled) -> Result<(), ReportError> {
+    fn draw_cells(&self, canvas: &mut Canvas, frame: &Frame, value: &Scaled) {
         let columns = self.x_edges.len().saturating_sub(1);
         for (row, y) in self.y_edges.windows(2).enumerate() {
             for (column, x) in self.x_edges.windows(2).enumerate() {
@@ -130,13 +136,12 @@ impl HeatMap {
                 // A pixel on into the neighbours drawn next, so that no seam shows where a page scales the picture.
                 let further = [0, 1].map(|i| to[i] + (to[i] - from[i]).signum());
                 let [from, to] = [from, further].map(|p| frame.rect.clamp(p));
-                canvas.rectangle(from, to, color, 1.0)?;
+                canvas.rectangle(from, to, color, 1.0);
             }
         }
-        Ok(())
     }
 
-    fn draw_bar(&self, canvas: &Canvas<'_>, frame: &Frame, ticks: &[(f64, Tick)]) -> Result<(), ReportError> {
+    fn draw_bar(&self, canvas: &mut Canvas, frame: &Frame, ticks: &[(f64, Tick)]) {
         let (left, top, bottom) = (frame.rect.right + 18.0, frame.rect.top, frame.rect.bottom);
         let right = left + BAR_WIDTH;
         let height = frame.rect.height();
@@ -145,29 +150,30 @@ impl HeatMap {
             let at = |i: f64| (bottom - height * i / f64::from(steps)).max(top);
             let (foot, head) = (at(f64::from(step)), at(f64::from(step) + 2.0));
             let share = (f64::from(step) + 0.5) / f64::from(steps);
-            canvas.rectangle([left, foot], [right, head], self.colors.at(share), 1.0)?;
+            canvas.rectangle([left, foot], [right, head], self.colors.at(share), 1.0);
         }
         let stroke = Stroke::new(Color(70, 70, 70), 1.0);
-        canvas.line(&[[left, top], [right, top], [right, bottom], [left, bottom], [left, top]], stroke)?;
+        canvas.line(&[[left, top], [right, top], [right, bottom], [left, bottom], [left, top]], stroke);
         for (share, tick) in ticks {
             let at = bottom - share * height;
             let length = if tick.label.is_some() { 5.0 } else { 3.0 };
-            canvas.line(&[[right, at], [right + length, at]], stroke)?;
+            canvas.line(&[[right, at], [right + length, at]], stroke);
             if let Some(text) = &tick.label {
-                canvas.text([right + 9.0, at + 0.36 * TICK], Label::new(text, TICK, Anchor::Start))?;
+                canvas.text([right + 9.0, at + 0.36 * TICK], Label::new(text, TICK, Anchor::Start));
             }
         }
         let heading = self.value.heading();
         let at = [right + 9.0 + widest(ticks) + 24.0, 0.5 * (top + bottom)];
-        canvas.text(at, Label { upright: true, ..Label::new(&heading, LABEL, Anchor::Middle) })
+        canvas.text(at, Label { upright: true, ..Label::new(&heading, LABEL, Anchor::Middle) });
     }
 
     /// The map as PNG bytes, two pixels for each CSS pixel.
     ///
     /// # Errors
     /// As for [`HeatMap::svg`].
+    #[cfg(feature = "png")]
     pub fn png(&self) -> Result<Vec<u8>, ReportError> {
-        png::encode(&self.svg()?)
+        png::encode(&self.drawn()?)
     }
 
     /// Writes the map to `path` as SVG or PNG, told by its extension.
@@ -177,6 +183,6 @@ impl HeatMap {
     pub fn write(&self, path: impl AsRef<Path>) -> Result<(), ReportError> {
         let path = path.as_ref();
         let format = ImageFormat::from_path(path)?;
-        write_image(path, format, &self.svg()?)
+        write_image(path, format, &self.drawn()?)
     }
 }

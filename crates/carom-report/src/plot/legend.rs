@@ -5,7 +5,6 @@ use super::clip::Rect;
 use super::frame::TICK;
 use super::occupied::Occupied;
 use super::{Color, Legend, Series, Shape, font};
-use crate::ReportError;
 
 const ROW: f64 = 21.0;
 const SWATCH: f64 = 30.0;
@@ -47,30 +46,29 @@ pub(super) fn place(legend: Legend, size: (f64, f64), frame: &Rect, taken: &Occu
     }
 }
 
-pub(super) fn draw(canvas: &Canvas<'_>, series: &[(&Series, Color)], rect: &Rect) -> Result<(), ReportError> {
+pub(super) fn draw(canvas: &mut Canvas, series: &[(&Series, Color)], rect: &Rect) {
     let Rect { left, top, right, bottom } = *rect;
-    canvas.rectangle([left, top], [right, bottom], Color(255, 255, 255), 0.88)?;
+    canvas.rectangle([left, top], [right, bottom], Color(255, 255, 255), 0.88);
     let edge = [[left, top], [right, top], [right, bottom], [left, bottom], [left, top]];
-    canvas.line(&edge, Stroke::new(Color(205, 205, 210), 1.0))?;
+    canvas.line(&edge, Stroke::new(Color(205, 205, 210), 1.0));
     for (row, (series, color)) in series.iter().filter(|(s, _)| !s.label.is_empty()).enumerate() {
         let middle = top + PAD + ROW * row as f64 + 0.5 * ROW - 1.5;
-        swatch(canvas, series, *color, [left + PAD, middle])?;
+        swatch(canvas, series, *color, [left + PAD, middle]);
         let at = [left + PAD + SWATCH + 8.0, middle + 0.36 * TICK];
-        canvas.text(at, Label::new(&series.label, TICK, Anchor::Start))?;
+        canvas.text(at, Label::new(&series.label, TICK, Anchor::Start));
     }
-    Ok(())
 }
 
-fn swatch(canvas: &Canvas<'_>, series: &Series, color: Color, at: Point) -> Result<(), ReportError> {
+fn swatch(canvas: &mut Canvas, series: &Series, color: Color, at: Point) {
     let [left, y] = at;
     let (middle, right) = (left + 0.5 * SWATCH, left + SWATCH);
     match &series.shape {
         Shape::Line { dash, .. } => canvas.dashed(&[[left, y], [right, y]], Stroke::new(color, 2.0), *dash),
         Shape::Points { marker, interval, .. } => {
             if !interval.is_empty() {
-                canvas.line(&[[middle, y - 8.0], [middle, y + 8.0]], Stroke::new(color, 1.2))?;
+                canvas.line(&[[middle, y - 8.0], [middle, y + 8.0]], Stroke::new(color, 1.2));
             }
-            canvas.marker([middle, y], *marker, 4.0, color)
+            canvas.marker([middle, y], *marker, 4.0, color);
         }
         Shape::Band { .. } => canvas.rectangle([left, y - 6.0], [right, y + 6.0], color, super::draw::BAND),
         Shape::Bars { .. } => canvas.rectangle([left, y - 6.0], [right, y + 6.0], color, super::draw::BAR),

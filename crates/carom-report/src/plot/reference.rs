@@ -5,7 +5,6 @@ use super::clip::Rect;
 use super::frame::{Frame, TICK};
 use super::occupied::Occupied;
 use super::{Color, Dash, font};
-use crate::ReportError;
 
 /// A straight line across the plot at a value that matters, with a label.
 #[derive(Debug, Clone, PartialEq)]
@@ -96,16 +95,15 @@ fn candidates(placed: &Placed<'_>, frame: &Rect) -> Vec<Rect> {
     rects
 }
 
-pub(super) fn draw_lines(canvas: &Canvas<'_>, placed: &[Placed<'_>]) -> Result<(), ReportError> {
+pub(super) fn draw_lines(canvas: &mut Canvas, placed: &[Placed<'_>]) {
     let stroke = Stroke::new(Color::GREY, 1.2);
-    placed.iter().try_for_each(|p| canvas.dashed(&p.line, stroke, Dash::Dashed))
+    placed.iter().for_each(|p| canvas.dashed(&p.line, stroke, Dash::Dashed));
 }
 
-pub(super) fn draw_labels(canvas: &Canvas<'_>, placed: &[Placed<'_>]) -> Result<(), ReportError> {
+pub(super) fn draw_labels(canvas: &mut Canvas, placed: &[Placed<'_>]) {
     for (text, rect) in placed.iter().filter_map(|p| Some((p.text, p.label?))) {
-        canvas.rectangle([rect.left, rect.top], [rect.right, rect.bottom], Color(255, 255, 255), 0.75)?;
+        canvas.rectangle([rect.left, rect.top], [rect.right, rect.bottom], Color(255, 255, 255), 0.75);
         let label = Label { color: Color(90, 90, 90), ..Label::new(text, TICK, Anchor::Start) };
-        canvas.text([rect.left + 3.0, rect.bottom - 5.0], label)?;
+        canvas.text([rect.left + 3.0, rect.bottom - 5.0], label);
     }
-    Ok(())
 }

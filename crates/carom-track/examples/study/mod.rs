@@ -60,7 +60,7 @@ impl CaseFile {
     /// The checked case.
     pub fn case(&self) -> Result<Case> {
         let text = toml::to_string(&self.table)?;
-        let case = Case::from_toml(&text, &self.name, &Library::builtin());
+        let case = Case::from_toml(&text, &self.name, Library::builtin());
         Ok(case.map_err(|e| e.located(&self.name.to_string_lossy(), &text))?)
     }
 }

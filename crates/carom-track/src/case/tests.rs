@@ -47,7 +47,7 @@ until = "2 s"
 "#;
 
 fn read(text: &str) -> Result<Case, CaseError> {
-    Case::from_toml(text, Path::new("case.toml"), &Library::builtin())
+    Case::from_toml(text, Path::new("case.toml"), Library::builtin())
 }
 
 #[test]

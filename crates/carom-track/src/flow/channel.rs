@@ -11,8 +11,10 @@
 //! # Ok::<(), carom_track::flow::FlowError>(())
 //! ```
 
-use super::profile::{Section, Shape, WallTurbulence};
+use super::piece::{Exit, Layers, Piece, along, soonest};
+use super::profile::{Section, Shape, WallTurbulence, wall_layers};
 use super::{FlowError, Fluid, Local, Profile};
+use crate::geometry::Path;
 
 /// Fully developed flow between two plates.
 #[derive(Clone, Copy, Debug)]
@@ -22,6 +24,7 @@ pub struct Channel {
     height: f64,
     mean_speed: f64,
     reynolds: f64,
+    layers: Layers,
 }
 
 impl Channel {
@@ -56,7 +59,18 @@ impl Channel {
                 Shape::Turbulent(WallTurbulence::new(Section::Plane, 0.5 * height, mean_speed, friction_velocity, nu))
             }
         };
-        Ok(Self { shape, friction_velocity, height, mean_speed, reynolds })
+        let layers = match &shape {
+            // a plug goes on beyond the walls
+            Shape::Plug => Layers::new([]),
+            Shape::Laminar => Layers::new([0.0, height]),
+            Shape::Turbulent(_) => {
+                let low = wall_layers(0.5 * height, friction_velocity, nu);
+                let high = low.iter().rev().map(|y| height - y);
+                let edges = [0.0].into_iter().chain(low.iter().copied()).chain([0.5 * height]);
+                Layers::new(edges.chain(high).chain([height]))
+            }
+        };
+        Ok(Self { shape, friction_velocity, height, mean_speed, reynolds, layers })
     }
 
     /// U h/ν.
@@ -69,59 +83,116 @@ impl Channel {
         self.friction_velocity
     }
 
+    /// The piece of a point: one of the layers from wall to wall, or beyond.
+    pub fn piece(&self, x: [f64; 3]) -> Piece {
+        Piece::layer(self.layers.of(x[1]))
+    }
+
+    /// Where a path leaves a piece.
     #[inline(always)]
-    fn wall_distance(&self, y: f64) -> f64 {
-        y.min(self.height - y).max(0.0)
+    pub fn exit(&self, piece: Piece, path: &Path) -> Option<Exit> {
+        let (start, change) = along(path, 1);
+        self.layers.exit(piece.index(), start, &change)
+    }
+
+    /// Lower and upper edge of a piece.
+    #[inline(always)]
+    pub(super) fn bounds(&self, piece: Piece) -> [f64; 2] {
+        self.layers.bounds(piece.index())
+    }
+
+    /// How soon a straight path at `v` leaves a piece, s.
+    #[inline(always)]
+    pub fn soonest(&self, piece: Piece, x: [f64; 3], v: [f64; 3]) -> f64 {
+        soonest(x[1], v[1], self.bounds(piece))
+    }
+
+    /// Whether the flow is one piece.
+    pub fn is_one_piece(&self) -> bool {
+        self.layers.edges().is_empty()
+    }
+
+    /// Whether a place counts as the lower wall's: the formula of a turbulent profile is that of the piece's half.
+    #[inline(always)]
+    fn is_lower(&self, piece: Piece, y: f64) -> bool {
+        match &self.shape {
+            Shape::Turbulent(_) => 2 * piece.index() <= self.layers.edges().len(),
+            // symmetric: the nearer wall's distance gives the same parabola
+            Shape::Plug | Shape::Laminar => y <= self.height - y,
+        }
+    }
+
+    /// Distance from the wall a place counts as of, m, no further than its formula goes; negative beyond the wall.
+    #[inline(always)]
+    fn wall_distance(&self, piece: Piece, y: f64) -> f64 {
+        let d = if self.is_lower(piece, y) { y } else { self.height - y };
+        d.min(0.75 * self.height)
     }
 
     #[inline(always)]
-    fn laminar(&self, y: f64) -> f64 {
-        let s = self.wall_distance(y) / self.height;
+    fn is_inside(&self, piece: Piece) -> bool {
+        piece.0[0].wrapping_sub(1) < (self.layers.edges().len() as u32).saturating_sub(1)
+    }
+
+    #[inline(always)]
+    fn laminar(&self, d: f64) -> f64 {
+        let s = d / self.height;
         6.0 * self.mean_speed * s * (1.0 - s)
     }
 
     /// Velocity at `x`, m/s.
     #[inline(always)]
     pub fn velocity(&self, x: [f64; 3]) -> [f64; 3] {
-        let u = match &self.shape {
-            Shape::Plug => self.mean_speed,
-            Shape::Laminar => self.laminar(x[1]),
-            Shape::Turbulent(wall) => wall.velocity(self.wall_distance(x[1])),
-        };
-        [u, 0.0, 0.0]
+        let mut u = [0.0];
+        self.velocities(&[self.piece(x)], &[x[1]], &mut u);
+        [u[0], 0.0, 0.0]
     }
 
-    /// Streamwise velocity at `N` heights.
+    /// Streamwise velocity at `N` heights, by the formulas of pieces.
     #[inline(always)]
-    pub(super) fn velocities<const N: usize>(&self, y: &[f64; N], u: &mut [f64; N]) {
+    pub(super) fn velocities<const N: usize>(&self, pieces: &[Piece; N], y: &[f64; N], u: &mut [f64; N]) {
+        let mut d = [0.0; N];
+        for ((d, y), piece) in d.iter_mut().zip(y).zip(pieces) {
+            *d = self.wall_distance(*piece, *y);
+        }
         match &self.shape {
-            Shape::Plug => *u = [self.mean_speed; N],
+            Shape::Plug => return *u = [self.mean_speed; N],
             Shape::Laminar => {
-                for (u, y) in u.iter_mut().zip(y) {
-                    *u = self.laminar(*y);
+                for (u, d) in u.iter_mut().zip(d) {
+                    *u = self.laminar(d);
                 }
             }
             Shape::Turbulent(wall) => {
-                for (u, y) in u.iter_mut().zip(y) {
-                    *u = wall.velocity(self.wall_distance(*y));
+                for (u, d) in u.iter_mut().zip(d) {
+                    *u = wall.velocity(d);
                 }
             }
+        }
+        for (u, piece) in u.iter_mut().zip(pieces) {
+            *u = if self.is_inside(*piece) { *u } else { 0.0 };
         }
     }
 
     /// Everything known at `x`.
     pub fn sample(&self, x: [f64; 3]) -> Local {
-        let (low, high) = (x[1], self.height - x[1]);
-        let y = self.wall_distance(x[1]);
-        // +1 while the lower wall is nearer
-        let side = if low <= high { 1.0 } else { -1.0 };
+        self.sample_in(self.piece(x), x)
+    }
+
+    /// Everything known at `x`, by the formulas of a piece.
+    pub fn sample_in(&self, piece: Piece, x: [f64; 3]) -> Local {
+        let d = self.wall_distance(piece, x[1]);
+        let side = if self.is_lower(piece, x[1]) { 1.0 } else { -1.0 };
+        let inside = self.is_inside(piece);
         let slope = match &self.shape {
-            Shape::Plug => 0.0,
-            Shape::Laminar => 6.0 * self.mean_speed / self.height * (1.0 - 2.0 * y / self.height),
-            Shape::Turbulent(wall) => wall.slope(y),
+            Shape::Laminar if inside => 6.0 * self.mean_speed / self.height * (1.0 - 2.0 * d / self.height),
+            Shape::Turbulent(wall) if inside => wall.slope(d),
+            _ => 0.0,
         };
+        let y = d.max(0.0);
         let (k, epsilon) = if let Shape::Turbulent(wall) = &self.shape { wall.turbulence(y) } else { (0.0, 0.0) };
-        let mut local = Local::uniform(self.velocity(x));
+        let mut u = [0.0];
+        self.velocities(&[piece], &[x[1]], &mut u);
+        let mut local = Local::uniform([u[0], 0.0, 0.0]);
         local.gradient[0][1] = side * slope;
         Local {
             k,
@@ -210,7 +281,7 @@ mod tests {
             let channel = Channel::new(profile, 0.03, -2.0, &air_like()).unwrap();
             let y = [-1e-3, 0.0, 1e-5, 3e-3, 0.015, 0.02, 0.03, 0.04];
             let mut u = [0.0; 8];
-            channel.velocities(&y, &mut u);
+            channel.velocities(&y.map(|y| channel.piece([0.0, y, 0.0])), &y, &mut u);
             for (y, u) in y.into_iter().zip(u) {
                 assert_eq!(channel.velocity([0.0, y, 0.0])[0].to_bits(), u.to_bits());
             }

@@ -30,9 +30,13 @@
 //! # Ok::<(), carom_track::flow::FlowError>(())
 //! ```
 
+use super::piece::{Exit, Layers, Piece, along, soonest};
 use super::{FlowError, Local};
+use crate::geometry::Path;
 use carom::math::{angle, exp, ln};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
+
+mod edge;
 
 /// Plane free jet against a plate.
 #[derive(Clone, Copy, Debug)]
@@ -55,32 +59,66 @@ impl SlotJet {
     /// Whether a point is in the jet, its mirror image x → |x| scaled by the width.
     #[inline(always)]
     fn contains(x: f64, y: f64) -> bool {
-        // beyond 60 widths the powers would overflow, and the surface is long at its asymptotes
-        let power = |s: f64| exp(PI * (s.min(60.0) - 0.5)) - 1.0;
-        let (x, y) = (power(x), power(y));
-        x <= 0.0 || y <= 0.0 || x * y <= 2.0
+        surface(x, y) <= 0.0
     }
 
-    /// w = (u − iv)/U at |x| and y ≥ 0; `None` outside the jet.
+    /// The piece of a point.
+    pub fn piece(&self, x: [f64; 3]) -> Piece {
+        Piece::layer(if self.is_inside(x) { INSIDE } else { OUTSIDE })
+    }
+
+    fn is_inside(&self, x: [f64; 3]) -> bool {
+        Self::contains(x[0].abs() / self.width, x[1].max(0.0) / self.width)
+    }
+
+    /// Where a path leaves a piece: where it crosses the jet's surface.
+    pub fn exit(&self, piece: Piece, path: &Path) -> Option<Exit> {
+        let (inside, into) = if piece.index() == INSIDE { (true, OUTSIDE) } else { (false, INSIDE) };
+        let theta = edge::crossing(path, self.width, inside)?;
+        Some(Exit { theta, into: Piece::layer(into) })
+    }
+
+    /// How far a step may go from `x`, m: a share of the width where the jet turns, more where it is even.
+    pub fn reach(&self, piece: Piece, x: [f64; 3]) -> f64 {
+        if piece.index() != INSIDE {
+            return f64::INFINITY;
+        }
+        let far = x[0].abs().max(x[1]) - 3.0 * self.width;
+        0.5 * (self.width + far.max(0.0))
+    }
+
+    /// w = (u − iv)/U at |x| and |y|, also a little beyond the jet's surface.
     #[inline(always)]
-    fn complex_velocity(&self, x: [f64; 3]) -> Option<Complex> {
-        let (x, y) = (x[0].abs() / self.width, x[1].max(0.0) / self.width);
-        Self::contains(x, y).then(|| invert(Complex(FRAC_PI_2 * x, FRAC_PI_2 * y)))
+    fn complex_velocity(&self, x: [f64; 3]) -> Complex {
+        invert(Complex(FRAC_PI_2 * x[0].abs() / self.width, FRAC_PI_2 * x[1].max(0.0) / self.width))
     }
 
     /// Velocity at `x`, m/s.
     #[inline(always)]
     pub fn velocity(&self, x: [f64; 3]) -> [f64; 3] {
-        match self.complex_velocity(x) {
-            Some(w) => [(w.0 * self.speed).copysign(x[0]), -w.1 * self.speed, 0.0],
-            None => [0.0; 3],
+        self.velocity_in(self.piece(x), x)
+    }
+
+    /// Velocity at `x` by the formula of a piece, m/s.
+    #[inline(always)]
+    pub fn velocity_in(&self, piece: Piece, x: [f64; 3]) -> [f64; 3] {
+        if piece.index() != INSIDE {
+            return [0.0; 3];
         }
+        let w = self.complex_velocity(x);
+        [(w.0 * self.speed).copysign(x[0]), -w.1 * self.speed, 0.0]
     }
 
     /// Everything known at `x`.
     pub fn sample(&self, x: [f64; 3]) -> Local {
+        self.sample_in(self.piece(x), x)
+    }
+
+    /// Everything known at `x`, by the formulas of a piece.
+    pub fn sample_in(&self, piece: Piece, x: [f64; 3]) -> Local {
         let mut gradient = [[0.0; 3]; 3];
-        if let Some(w) = self.complex_velocity(x) {
+        if piece.index() == INSIDE {
+            let w = self.complex_velocity(x);
             let rate = FRAC_PI_4 * self.speed / self.width;
             let slope = w.one_minus_fourth();
             gradient[0][0] = rate * slope.0;
@@ -88,8 +126,21 @@ impl SlotJet {
             gradient[1][0] = (-rate * slope.1) * 1f64.copysign(x[0]);
             gradient[0][1] = gradient[1][0];
         }
-        plate(x, Local::steady(self.velocity(x), gradient))
+        plate(x, Local::steady(self.velocity_in(piece, x), gradient))
     }
+}
+
+/// The pieces of a slot jet.
+const OUTSIDE: usize = 0;
+const INSIDE: usize = 1;
+
+/// Below zero in the jet, zero on its surface, above outside; rising with `x` ≥ 0 and `y` ≥ 0, both scaled by the width.
+#[inline(always)]
+fn surface(x: f64, y: f64) -> f64 {
+    // beyond 60 widths the powers would overflow, and the surface is long at its asymptotes
+    let power = |s: f64| exp(PI * (s.min(60.0) - 0.5)) - 1.0;
+    let (x, y) = (power(x), power(y));
+    if x <= 0.0 || y <= 0.0 { x.min(y) - 2.0 } else { x * y - 2.0 }
 }
 
 /// A complex number: real and imaginary part.
@@ -204,27 +255,67 @@ impl RoundJet {
         self.thickness
     }
 
-    /// 1 − s of s = y/δ, held within [0, 1].
+    fn layers(&self) -> Layers {
+        Layers::new([0.0, self.thickness])
+    }
+
+    /// The piece of a point: below the plate, where the jet turns, or above.
+    pub fn piece(&self, x: [f64; 3]) -> Piece {
+        Piece::layer(self.layers().of(x[1]))
+    }
+
+    /// Where a path leaves a piece.
+    pub fn exit(&self, piece: Piece, path: &Path) -> Option<Exit> {
+        let (start, change) = along(path, 1);
+        self.layers().exit(piece.index(), start, &change)
+    }
+
+    /// Lower and upper edge of a piece.
+    pub(super) fn bounds(&self, piece: Piece) -> [f64; 2] {
+        self.layers().bounds(piece.index())
+    }
+
+    /// How soon a straight path at `v` leaves a piece, s.
+    pub fn soonest(&self, piece: Piece, x: [f64; 3], v: [f64; 3]) -> f64 {
+        soonest(x[1], v[1], self.bounds(piece))
+    }
+
+    /// 1 − s of s = y/δ: 1 below the plate, 0 above the turning.
     #[inline(always)]
-    fn rest(&self, y: f64) -> f64 {
-        (1.0 - y / self.thickness).clamp(0.0, 1.0)
+    fn rest(&self, piece: Piece, y: f64) -> f64 {
+        match piece.index() {
+            0 => 1.0,
+            1 => 1.0 - y / self.thickness,
+            _ => 0.0,
+        }
     }
 
     /// Velocity at `x`, m/s.
     #[inline(always)]
     pub fn velocity(&self, x: [f64; 3]) -> [f64; 3] {
-        let rest = self.rest(x[1]);
+        self.velocity_in(self.piece(x), x)
+    }
+
+    /// Velocity at `x` by the formula of a piece, m/s.
+    #[inline(always)]
+    pub fn velocity_in(&self, piece: Piece, x: [f64; 3]) -> [f64; 3] {
+        let rest = self.rest(piece, x[1]);
         let radial = 1.5 * self.speed / self.thickness * rest * rest;
         [radial * x[0], self.speed * (rest * rest * rest - 1.0), radial * x[2]]
     }
 
     /// Everything known at `x`.
     pub fn sample(&self, x: [f64; 3]) -> Local {
-        let rest = self.rest(x[1]);
+        self.sample_in(self.piece(x), x)
+    }
+
+    /// Everything known at `x`, by the formulas of a piece.
+    pub fn sample_in(&self, piece: Piece, x: [f64; 3]) -> Local {
+        let rest = self.rest(piece, x[1]);
         let radial = 1.5 * self.speed / self.thickness * rest * rest;
         let turn = -3.0 * self.speed / (self.thickness * self.thickness) * rest;
         let gradient = [[radial, turn * x[0], 0.0], [0.0, -2.0 * radial, 0.0], [0.0, turn * x[2], radial]];
-        plate(x, Local::steady(self.velocity(x), gradient))
+        plate(x, Local::steady(self.velocity_in(piece, x), gradient))
     }
 }
 

@@ -6,6 +6,7 @@
 mod channel;
 mod fluid;
 mod jet;
+mod piece;
 mod pipe;
 mod profile;
 mod stagnation;
@@ -14,11 +15,13 @@ mod table;
 pub use channel::Channel;
 pub use fluid::Fluid;
 pub use jet::{RoundJet, SlotJet};
+pub use piece::{Exit, Piece};
 pub use pipe::Pipe;
 pub use profile::Profile;
 pub use stagnation::{Stagnation, Symmetry};
 pub use table::{Table, TableError};
 
+use crate::geometry::Path;
 use crate::vector::Vec3;
 
 /// All that a force may ask of the fluid at a point.
@@ -112,17 +115,108 @@ impl Flow {
         }
     }
 
-    /// [`Flow::velocity`] at `N` points at once, coordinates as columns; the same bits, in loops that vectorise.
+    /// The smooth piece that a point lies in.
+    #[inline]
+    pub fn piece(&self, x: [f64; 3]) -> Piece {
+        match self {
+            Self::Still | Self::Uniform { .. } | Self::Stagnation(_) => Piece::default(),
+            Self::Channel(f) => f.piece(x),
+            Self::Pipe(f) => f.piece(x),
+            Self::SlotJet(f) => f.piece(x),
+            Self::RoundJet(f) => f.piece(x),
+            Self::Table(f) => f.piece(x),
+        }
+    }
+
+    /// Whether it is smooth everywhere, and of one scale.
     #[inline(always)]
-    pub fn velocities<const N: usize>(&self, x: &[[f64; N]; 3]) -> [[f64; N]; 3] {
+    pub fn is_one_piece(&self) -> bool {
+        match self {
+            Self::Still | Self::Uniform { .. } | Self::Stagnation(_) => true,
+            Self::Channel(f) => f.is_one_piece(),
+            Self::Pipe(f) => f.is_one_piece(),
+            Self::SlotJet(_) | Self::RoundJet(_) | Self::Table(_) => false,
+        }
+    }
+
+    /// Where a path leaves a piece, and into which.
+    #[inline]
+    pub fn exit(&self, piece: Piece, path: &Path) -> Option<Exit> {
+        match self {
+            Self::Still | Self::Uniform { .. } | Self::Stagnation(_) => None,
+            Self::Channel(f) => f.exit(piece, path),
+            Self::Pipe(f) => f.exit(piece, path),
+            Self::SlotJet(f) => f.exit(piece, path),
+            Self::RoundJet(f) => f.exit(piece, path),
+            Self::Table(f) => f.exit(piece, path),
+        }
+    }
+
+    /// Whether a box, by its lower and upper corner, surely lies within a piece, and within what a step may span there.
+    #[inline]
+    pub(crate) fn holds(&self, piece: Piece, [low, high]: [Vec3; 2]) -> bool {
+        let within = |[a, b]: [f64; 2], c: usize| low[c] > a && high[c] < b;
+        match self {
+            Self::Still | Self::Uniform { .. } | Self::Stagnation(_) => true,
+            Self::Channel(f) => within(f.bounds(piece), 1),
+            Self::RoundJet(f) => within(f.bounds(piece), 1),
+            Self::Table(f) => (0..3).all(|c| within(f.edges(piece, c), c)),
+            // round: left to the look at the path
+            Self::Pipe(_) | Self::SlotJet(_) => false,
+        }
+    }
+
+    /// How far a step from `x` may go within a piece, m.
+    #[inline(always)]
+    pub fn reach(&self, piece: Piece, x: [f64; 3]) -> f64 {
+        match self {
+            Self::SlotJet(f) => f.reach(piece, x),
+            _ => f64::INFINITY,
+        }
+    }
+
+    /// How soon a straight path from `x` at `v` leaves a piece, s; infinite where that is not known.
+    #[inline]
+    pub fn soonest(&self, piece: Piece, x: [f64; 3], v: [f64; 3]) -> f64 {
+        match self {
+            Self::Channel(f) => f.soonest(piece, x, v),
+            Self::Pipe(f) => f.soonest(piece, x, v),
+            Self::RoundJet(f) => f.soonest(piece, x, v),
+            Self::Table(f) => f.soonest(piece, x, v),
+            Self::Still | Self::Uniform { .. } | Self::Stagnation(_) | Self::SlotJet(_) => f64::INFINITY,
+        }
+    }
+
+    /// Fluid velocity at `x` by the formula of a piece, m/s.
+    #[inline(always)]
+    pub fn velocity_in(&self, piece: Piece, x: [f64; 3]) -> [f64; 3] {
+        match self {
+            Self::Still => [0.0; 3],
+            Self::Uniform { velocity } => *velocity,
+            Self::Channel(f) => {
+                let mut u = [0.0];
+                f.velocities(&[piece], &[x[1]], &mut u);
+                [u[0], 0.0, 0.0]
+            }
+            Self::Pipe(f) => f.velocity_in(piece, x),
+            Self::Stagnation(f) => f.velocity(x),
+            Self::SlotJet(f) => f.velocity_in(piece, x),
+            Self::RoundJet(f) => f.velocity_in(piece, x),
+            Self::Table(f) => f.velocity_in(piece, x),
+        }
+    }
+
+    /// [`Flow::velocity_in`] at `N` points at once, coordinates as columns; the same bits, in loops that vectorise.
+    #[inline(always)]
+    pub fn velocities<const N: usize>(&self, pieces: &[Piece; N], x: &[[f64; N]; 3]) -> [[f64; N]; 3] {
         let mut u = [[0.0; N]; 3];
         match self {
             Self::Still => {}
             Self::Uniform { velocity } => u = velocity.map(|c| [c; N]),
-            Self::Channel(f) => f.velocities(&x[1], &mut u[0]),
+            Self::Channel(f) => f.velocities(pieces, &x[1], &mut u[0]),
             _ => {
                 for lane in 0..N {
-                    let v = self.velocity([x[0][lane], x[1][lane], x[2][lane]]);
+                    let v = self.velocity_in(pieces[lane], [x[0][lane], x[1][lane], x[2][lane]]);
                     for (column, c) in u.iter_mut().zip(v) {
                         column[lane] = c;
                     }
@@ -143,15 +237,20 @@ impl Flow {
 
     /// Everything known of the fluid at `x`.
     pub fn sample(&self, x: [f64; 3]) -> Local {
+        self.sample_in(self.piece(x), x)
+    }
+
+    /// Everything known of the fluid at `x`, by the formulas of a piece.
+    pub fn sample_in(&self, piece: Piece, x: [f64; 3]) -> Local {
         match self {
             Self::Still => Local::uniform([0.0; 3]),
             Self::Uniform { velocity } => Local::uniform(*velocity),
-            Self::Channel(f) => f.sample(x),
-            Self::Pipe(f) => f.sample(x),
+            Self::Channel(f) => f.sample_in(piece, x),
+            Self::Pipe(f) => f.sample_in(piece, x),
             Self::Stagnation(f) => f.sample(x),
-            Self::SlotJet(f) => f.sample(x),
-            Self::RoundJet(f) => f.sample(x),
-            Self::Table(f) => f.sample(x),
+            Self::SlotJet(f) => f.sample_in(piece, x),
+            Self::RoundJet(f) => f.sample_in(piece, x),
+            Self::Table(f) => f.sample_in(piece, x),
         }
     }
 }

@@ -11,9 +11,11 @@
 //! # Ok::<(), carom_track::flow::FlowError>(())
 //! ```
 
-use super::profile::{Section, Shape, WallTurbulence};
+use super::piece::{Exit, Layers, Piece, soonest};
+use super::profile::{Section, Shape, WallTurbulence, wall_layers};
 use super::{FlowError, Fluid, Local, Profile};
-use crate::vector::{Vec3, dot, norm, scale, sub, unit};
+use crate::geometry::{Bernstein, Path};
+use crate::vector::{Vec3, add, dot, norm, scale, sub, unit};
 use carom::math::ln;
 
 /// Fully developed flow in a round pipe.
@@ -26,6 +28,8 @@ pub struct Pipe {
     radius: f64,
     mean_speed: f64,
     reynolds: f64,
+    /// By the distance from the axis.
+    layers: Layers,
 }
 
 impl Pipe {
@@ -70,7 +74,16 @@ impl Pipe {
                 Shape::Turbulent(WallTurbulence::new(Section::Round, radius, mean_speed, friction_velocity, nu))
             }
         };
-        Ok(Self { shape, friction_velocity, point, axis, radius, mean_speed, reynolds })
+        let layers = match &shape {
+            // a plug goes on beyond the wall
+            Shape::Plug => Layers::new([]),
+            Shape::Laminar => Layers::new([radius]),
+            Shape::Turbulent(_) => {
+                let low = wall_layers(radius, friction_velocity, nu);
+                Layers::new(low.iter().rev().map(|y| radius - y).chain([radius]))
+            }
+        };
+        Ok(Self { shape, friction_velocity, point, axis, radius, mean_speed, reynolds, layers })
     }
 
     /// 2UR/ν.
@@ -89,11 +102,57 @@ impl Pipe {
         sub(d, scale(self.axis, dot(d, self.axis)))
     }
 
+    /// The piece of a point: one of the layers around the axis, or beyond the wall.
+    pub fn piece(&self, x: [f64; 3]) -> Piece {
+        Piece::layer(self.layers.of(norm(self.radial(x))))
+    }
+
+    /// Whether the flow is one piece.
+    pub fn is_one_piece(&self) -> bool {
+        self.layers.edges().is_empty()
+    }
+
+    /// Where a path leaves a piece: a root of the squared distance from the axis, of degree ten.
+    pub fn exit(&self, piece: Piece, path: &Path) -> Option<Exit> {
+        let [low, high] = self.layers.bounds(piece.index());
+        let start = self.radial(path.start);
+        let across = path.points.map(|p| sub(p, scale(self.axis, dot(p, self.axis))));
+        let r = norm(start);
+        // a disc is convex, and nothing comes nearer to the axis than its projection on where it started
+        let stays_in = across.iter().all(|p| norm(add(start, *p)) < high);
+        let stays_out = low <= 0.0 || across.iter().all(|p| dot(add(start, *p), start) > low * r);
+        if stays_in && stays_out && r > low && r < high {
+            return None;
+        }
+        let mut change = Bernstein([0.0; 11]);
+        for c in 0..3 {
+            let p = Bernstein([0.0, across[0][c], across[1][c], across[2][c], across[3][c], across[4][c]]);
+            change = change.plus(&p.times(&p.scaled(1.0, 2.0 * start[c])));
+        }
+        let squares = [if low < 0.0 { low } else { low * low }, high * high];
+        let (down, up) = super::piece::leave(r * r, &change, squares);
+        let down = down.map(|theta| Exit { theta, into: Piece::layer(piece.index() - 1) });
+        let up = up.map(|theta| Exit { theta, into: Piece::layer(piece.index() + 1) });
+        Exit::earlier(down, up)
+    }
+
+    /// How soon a straight path at `v` leaves a piece, s; no sooner at least.
+    pub fn soonest(&self, piece: Piece, x: [f64; 3], v: [f64; 3]) -> f64 {
+        let radial = self.radial(x);
+        let across = norm(sub(v, scale(self.axis, dot(v, self.axis))));
+        let r = norm(radial);
+        let [low, high] = self.layers.bounds(piece.index());
+        soonest(r, across, [low, high]).min(soonest(r, -across, [low, high]))
+    }
+
+    /// Speed along the axis at a distance from it, by the formula of a piece.
     #[inline(always)]
-    fn speed(&self, r: f64) -> f64 {
-        let y = (self.radius - r).max(0.0);
+    fn speed(&self, piece: Piece, r: f64) -> f64 {
+        // beyond the axis there is nothing; beyond the wall the formula goes on
+        let y = self.radius - r;
         match &self.shape {
             Shape::Plug => self.mean_speed,
+            _ if piece.index() == self.layers.edges().len() => 0.0,
             Shape::Laminar => 2.0 * self.mean_speed * (y / self.radius) * (2.0 - y / self.radius),
             Shape::Turbulent(wall) => wall.velocity(y),
         }
@@ -102,19 +161,31 @@ impl Pipe {
     /// Velocity at `x`, m/s.
     #[inline(always)]
     pub fn velocity(&self, x: [f64; 3]) -> [f64; 3] {
-        scale(self.axis, self.speed(norm(self.radial(x))))
+        self.velocity_in(self.piece(x), x)
+    }
+
+    /// Velocity at `x` by the formula of a piece, m/s.
+    #[inline(always)]
+    pub fn velocity_in(&self, piece: Piece, x: [f64; 3]) -> [f64; 3] {
+        scale(self.axis, self.speed(piece, norm(self.radial(x))))
     }
 
     /// Everything known at `x`. On the axis itself the wall normal is zero.
     pub fn sample(&self, x: [f64; 3]) -> Local {
+        self.sample_in(self.piece(x), x)
+    }
+
+    /// Everything known at `x`, by the formulas of a piece.
+    pub fn sample_in(&self, piece: Piece, x: [f64; 3]) -> Local {
         let radial = self.radial(x);
         let r = norm(radial);
         let y = (self.radius - r).max(0.0);
         let outward = unit(radial).unwrap_or([0.0; 3]);
         let slope = match &self.shape {
+            _ if piece.index() == self.layers.edges().len() => 0.0,
             Shape::Plug => 0.0,
             Shape::Laminar => -4.0 * self.mean_speed * (self.radius - y) / (self.radius * self.radius),
-            Shape::Turbulent(wall) => -wall.slope(y),
+            Shape::Turbulent(wall) => -wall.slope(self.radius - r),
         };
         let (k, epsilon) = if let Shape::Turbulent(wall) = &self.shape { wall.turbulence(y) } else { (0.0, 0.0) };
         Local {
@@ -124,7 +195,7 @@ impl Pipe {
             wall_distance: y,
             wall_normal: scale(outward, -1.0),
             friction_velocity: self.friction_velocity(),
-            ..Local::uniform(scale(self.axis, self.speed(r)))
+            ..Local::uniform(scale(self.axis, self.speed(piece, r)))
         }
     }
 }

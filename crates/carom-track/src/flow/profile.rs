@@ -51,6 +51,8 @@ pub(super) struct WallTurbulence {
     /// Velocity per U⁺, m/s: u_τ times the factor that makes the mean exact.
     speed: f64,
     viscosity: f64,
+    /// dU/dy at the wall, 1/s.
+    wall_slope: f64,
 }
 
 /// A profile with what it takes to evaluate it.
@@ -72,7 +74,10 @@ impl WallTurbulence {
     pub fn new(section: Section, half: f64, mean_speed: f64, friction_velocity: f64, kinematic_viscosity: f64) -> Self {
         let per_wall_unit = friction_velocity / kinematic_viscosity;
         let mean = mean_u_plus(section, half * per_wall_unit);
-        Self { friction_velocity, half, per_wall_unit, speed: mean_speed / mean, viscosity: kinematic_viscosity }
+        let speed = mean_speed / mean;
+        let viscosity = kinematic_viscosity;
+        let wall = Self { friction_velocity, half, per_wall_unit, speed, viscosity, wall_slope: 0.0 };
+        Self { wall_slope: wall.slope(0.0), ..wall }
     }
 
     /// What the profile was multiplied by to make its mean exact.
@@ -81,9 +86,16 @@ impl WallTurbulence {
         self.speed / self.friction_velocity
     }
 
-    /// Mean velocity at the distance `y` from the wall (0 ≤ y ≤ half), m/s.
+    /// Mean velocity at the distance `y` from the wall (0 ≤ y ≤ half), m/s. Beyond the wall the tangent goes on, and beyond the axis
+    /// the formula, to y = 1.5 half.
     #[inline(always)]
     pub fn velocity(&self, y: f64) -> f64 {
+        let beyond = y.min(0.0) * self.wall_slope;
+        self.inner(y.max(0.0)) + beyond
+    }
+
+    #[inline(always)]
+    fn inner(&self, y: f64) -> f64 {
         let (y_plus, eta) = (y * self.per_wall_unit, 1.0 - y / self.half);
         let core = (1.0 + KARMAN * y_plus) * (WAKE * (1.0 + eta)) / (1.0 + 2.0 * eta * eta);
         let wall = 1.0 - exp(-y_plus / A) - y_plus / A * exp(-y_plus / B);
@@ -92,6 +104,7 @@ impl WallTurbulence {
 
     /// dU/dy at the distance `y` from the wall, 1/s.
     pub fn slope(&self, y: f64) -> f64 {
+        let y = y.max(0.0);
         let (y_plus, eta) = (y * self.per_wall_unit, 1.0 - y / self.half);
         let half_plus = self.half * self.per_wall_unit;
         let core = 1.0 / (1.0 + KARMAN * y_plus)
@@ -111,6 +124,17 @@ impl WallTurbulence {
         (u2 * k_plus, u2 * u2 / self.viscosity * outer / (KARMAN * length))
     }
 }
+
+/// Distances from a wall, m, between which a turbulent profile has one scale each: 5 wall units, then four times as many, to the
+/// axis (which is left out).
+pub(super) fn wall_layers(half: f64, friction_velocity: f64, kinematic_viscosity: f64) -> Vec<f64> {
+    let first = 5.0 * kinematic_viscosity / friction_velocity;
+    let layers = std::iter::successors(Some(first), |y| Some(4.0 * y));
+    layers.take(MOST_LAYERS).take_while(|y| *y < 0.75 * half).collect()
+}
+
+/// Layers are counted so far from a wall: beyond, no channel or pipe of a published friction law reaches.
+const MOST_LAYERS: usize = 10;
 
 /// Mean of U⁺ over the cross-section for δ⁺ = `d`, in closed form.
 fn mean_u_plus(section: Section, d: f64) -> f64 {

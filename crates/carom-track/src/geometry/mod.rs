@@ -17,6 +17,7 @@ mod walls;
 
 pub use bernstein::Bernstein;
 pub use bounds::Bounds;
+pub(crate) use contact::first_contact;
 pub use cylinder::Cylinder;
 pub use faces::Ahead;
 pub(crate) use faces::Face;

@@ -15,8 +15,8 @@
 //!     ..Plan::single([0.0, 0.025, 0.0], [2.0, 0.0, 0.0], 90e-6, 8940.0)
 //! };
 //! let injection = Injection::new(1, 0, plan, &Fluid::default())?;
-//! let start = injection.particle(17, |_| [0.0; 3]);
-//! assert_eq!(start, injection.particle(17, |_| [0.0; 3]));
+//! let start = injection.particle(17, |_, _| [0.0; 3]);
+//! assert_eq!(start, injection.particle(17, |_, _| [0.0; 3]));
 //! assert_eq!((start.position, start.weight), ([0.0, 0.025, 0.0], 1.0));
 //! # Ok::<(), InjectionError>(())
 //! ```
@@ -209,8 +209,9 @@ impl Injection {
         self.parcel_mass.map(|m| m * self.count as f64)
     }
 
-    /// The start of particle `i`, 0 ≤ `i` < [`Injection::count`]; `fluid_velocity` is asked only for [`Start::Fluid`].
-    pub fn particle(&self, i: u64, fluid_velocity: impl FnOnce([f64; 3]) -> [f64; 3]) -> Particle {
+    /// The start of particle `i`, 0 ≤ `i` < [`Injection::count`];
+    /// `fluid_velocity` is asked at its time and place, only for [`Start::Fluid`].
+    pub fn particle(&self, i: u64, fluid_velocity: impl FnOnce(f64, [f64; 3]) -> [f64; 3]) -> Particle {
         let mut draws = Stream::new(self.seed, i, Purpose::Injection, self.index);
         let size = self.sampler.quantile(draws.open_uniform());
         let share = (i as f64 + draws.uniform()) / self.count as f64;
@@ -221,12 +222,12 @@ impl Injection {
             Diameter::Geometric => size,
             Diameter::Aerodynamic(slip) => geometric_diameter(size, density, slip, self.fluid.mean_free_path),
         };
+        let time = start + (stop - start) * share;
         let velocity = match self.plan.velocity {
             Start::Velocity(v) => v,
-            Start::Fluid => fluid_velocity(position),
+            Start::Fluid => fluid_velocity(time, position),
         };
         let weight = self.parcel_mass.map_or(1.0, |m| m / Sphere { diameter, density }.mass());
-        let time = start + (stop - start) * share;
         Particle { position, velocity, spin: self.plan.spin, diameter, density, time, weight }
     }
 }
@@ -298,7 +299,7 @@ mod tests {
             ..plan()
         });
         let mass: f64 = (0..injection.count())
-            .map(|i| injection.particle(i, |x| x))
+            .map(|i| injection.particle(i, |_, x| x))
             .map(|p| p.weight * Sphere { diameter: p.diameter, density: p.density }.mass())
             .sum();
         assert!((mass / 2e-6 - 1.0).abs() < 1e-12, "{mass}");
@@ -309,17 +310,17 @@ mod tests {
     fn starts_fill_the_window_in_order() {
         let injection = make(Plan { window: Window { start: 1.0, stop: 3.0 }, amount: Amount::Count(100), ..plan() });
         for i in 0..100 {
-            let t = injection.particle(i, |x| x).time;
+            let t = injection.particle(i, |_, x| x).time;
             assert!(t >= 1.0 + 0.02 * i as f64 && t < 1.0 + 0.02 * (i + 1) as f64);
         }
-        assert_eq!(make(plan()).particle(0, |x| x).time, 0.0);
+        assert_eq!(make(plan()).particle(0, |_, x| x).time, 0.0);
     }
 
     #[test]
     fn velocity_of_the_fluid() {
         let source = Source::Box { low: [0.0; 3], high: [1.0; 3] };
         let injection = make(Plan { source, velocity: Start::Fluid, ..plan() });
-        let p = injection.particle(0, |x| [2.0 * x[1], 0.0, 0.0]);
+        let p = injection.particle(0, |_, x| [2.0 * x[1], 0.0, 0.0]);
         assert_eq!(p.velocity, [2.0 * p.position[1], 0.0, 0.0]);
         assert_eq!(p.weight, 1.0);
     }
@@ -331,7 +332,7 @@ mod tests {
         let a = Injection::new(3, 1, plan.clone(), &Fluid::default()).unwrap();
         for (seed, index, i) in [(4, 1, 5), (3, 2, 5), (3, 1, 6)] {
             let b = Injection::new(seed, index, plan.clone(), &Fluid::default()).unwrap();
-            assert_ne!(a.particle(5, |x| x).position, b.particle(i, |x| x).position);
+            assert_ne!(a.particle(5, |_, x| x).position, b.particle(i, |_, x| x).position);
         }
     }
 

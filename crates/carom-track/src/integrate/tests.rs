@@ -10,7 +10,7 @@ fn advance(start: &Motion<1>, h: f64, rates: &impl Fn(&Motion<1>, &mut Rates<1>)
     let mut first = Rates::ZERO;
     rates(start, &mut first);
     let mut out = Step::ZERO;
-    step(start, &first, &[h], CONTROL, rates, &mut out);
+    step(&[0.0], start, &first, &[h], CONTROL, rates, &mut out);
     out
 }
 
@@ -119,7 +119,7 @@ fn eight_lanes_give_the_bits_of_one() {
     let mut first = Rates::ZERO;
     many(&m, &mut first);
     let mut out = Step::ZERO;
-    step(&m, &first, &h, CONTROL, &many, &mut out);
+    step(&[0.0; 8], &m, &first, &h, CONTROL, &many, &mut out);
     for l in 0..8 {
         let lone = one([0, 1, 2].map(|c| m.x[c][l]), [0, 1, 2].map(|c| m.v[c][l]));
         let s = advance(&lone, h[l], &single);

@@ -53,7 +53,7 @@ box = [["0 m", "-1 m", "-1 m"], ["100 mm", "1 m", "1 m"]]
 "#;
 
 fn case() -> Case {
-    Case::from_toml(CASE, Path::new("case.toml"), &Library::builtin()).unwrap()
+    Case::from_toml(CASE, Path::new("case.toml"), Library::builtin()).unwrap()
 }
 
 fn files(folder: &Path) -> Vec<Vec<u8>> {
@@ -172,7 +172,7 @@ fn resuming_something_else_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     run(&case(), &options(folder.path(), 2), &Silent).unwrap();
     let other =
-        Case::from_toml(&CASE.replace("seed = 3", "seed = 4"), Path::new("case.toml"), &Library::builtin()).unwrap();
+        Case::from_toml(&CASE.replace("seed = 3", "seed = 4"), Path::new("case.toml"), Library::builtin()).unwrap();
     let resume = RunOptions { resume: true, ..options(folder.path(), 2) };
     assert!(
         run(&other, &resume, &Silent)
@@ -198,7 +198,7 @@ fn shards_are_read_with_care() {
 
 fn case_with(output: &str) -> Case {
     let text = CASE.replace("[output]", &format!("[output]\n{output}"));
-    Case::from_toml(&text, Path::new("case.toml"), &Library::builtin()).unwrap()
+    Case::from_toml(&text, Path::new("case.toml"), Library::builtin()).unwrap()
 }
 
 fn table(path: &Path, layout: usize) -> String {
@@ -280,7 +280,7 @@ fn tables_that_are_not_wanted_are_not_there() {
         assert!(!folder.path().join(format!("{stem}.csv")).exists(), "{stem}");
     }
     let text = CASE.replace("[output]", "[output]\nimpacts = \"parkett\"");
-    let error = Case::from_toml(&text, Path::new("case.toml"), &Library::builtin()).unwrap_err();
+    let error = Case::from_toml(&text, Path::new("case.toml"), Library::builtin()).unwrap_err();
     assert!(error.to_string().contains("parkett") && error.to_string().contains("parquet"), "{error}");
     let line = text[..error.span.unwrap().start].lines().last().unwrap();
     assert_eq!(line.trim(), "impacts =");
@@ -358,7 +358,7 @@ fn a_box_from_stl_is_the_box() {
         )
     };
     let made = |shape: &str| {
-        let case = Case::from_toml(&text(shape), &folder.path().join("case.toml"), &Library::builtin()).unwrap();
+        let case = Case::from_toml(&text(shape), &folder.path().join("case.toml"), Library::builtin()).unwrap();
         let out = folder.path().join(if shape.starts_with("stl") { "stl" } else { "box" });
         let summary = run(&case, &options(&out, 1), &Silent).unwrap();
         let mut rows = csv::Reader::from_path(out.join("impacts.csv")).unwrap();
@@ -375,7 +375,7 @@ fn a_box_from_stl_is_the_box() {
         assert!(a.0 == b.0 && (a.1 - b.1).abs() < 1e-8, "{a:?} {b:?}");
     }
     let lost =
-        Case::from_toml(&text("stl = { file = \"bix.stl\" }"), &folder.path().join("case.toml"), &Library::builtin());
+        Case::from_toml(&text("stl = { file = \"bix.stl\" }"), &folder.path().join("case.toml"), Library::builtin());
     assert!(lost.unwrap_err().to_string().contains("bix.stl"));
 }
 

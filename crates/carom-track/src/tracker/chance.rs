@@ -3,7 +3,8 @@
 //! A kick is constant for a while, and the tracker steps exactly to its end. An eddy drifts and ages with the place: half
 //! of a step's drift is added before the step, with the place it starts from, and the whole of it, with both ends, after.
 
-use super::{Crew, Tracker, motion_of};
+use super::Walk;
+use super::crew::{Crew, motion_of};
 use crate::domain::Domain;
 use crate::force::{Eddy, RandomWalk, Surroundings, brownian_amplitude};
 use crate::random::{Purpose, Stream};
@@ -45,7 +46,7 @@ impl Chance {
     }
 }
 
-impl<D: Domain> Tracker<'_, D> {
+impl<D: Domain> Walk<'_, D> {
     /// Whether anything changes at random in flight.
     #[inline(always)]
     pub(super) fn has_chance(&self) -> bool {
@@ -59,14 +60,14 @@ impl<D: Domain> Tracker<'_, D> {
     }
 
     /// Gives a lane's eddy the deviates of the middle of the step it is about to try.
-    pub(super) fn lean<const W: usize>(&self, crew: &mut Crew<W>, l: usize) {
+    pub(super) fn lean<const W: usize>(&self, crew: &mut Crew<W, D::Here>, l: usize) {
         let chance = &crew.lanes[l].chance;
         crew.bodies.eddy[l] = Some(chance.eddy.middle(&chance.place, crew.h[l]));
         crew.stale[l] = true;
     }
 
     /// Brings chance up to a lane's time and place, `step` after it last was, draws what is due, and says when to stop next.
-    pub(super) fn renew<const W: usize>(&self, crew: &mut Crew<W>, l: usize, step: f64) {
+    pub(super) fn renew<const W: usize>(&self, crew: &mut Crew<W, D::Here>, l: usize, step: f64) {
         let mut changed = false;
         match &self.dynamics.random_walk {
             Some(walk) => changed = self.renew_eddy(walk, crew, l, step),
@@ -82,13 +83,15 @@ impl<D: Domain> Tracker<'_, D> {
     }
 
     /// Ages the eddy; whether another one was met.
-    fn renew_eddy<const W: usize>(&self, walk: &RandomWalk, crew: &mut Crew<W>, l: usize, step: f64) -> bool {
+    fn renew_eddy<const W: usize>(&self, walk: &RandomWalk, crew: &mut Crew<W, D::Here>, l: usize, step: f64) -> bool {
         let (x, v, _) = motion_of(&crew.motion, l);
         let nu = self.dynamics.fluid.kinematic_viscosity();
         let tau = self.dynamics.relaxation_time(&crew.bodies.sphere[l]);
-        let here = || walk.surroundings(|x| self.domain.fluid(x), x, nu, tau);
+        let (piece, time) = (crew.here[l], crew.time[l]);
+        let fluid = |x| self.domain.fluid(piece, time, x);
+        let here = || walk.surroundings(fluid, x, nu, tau);
         let lane = &mut crew.lanes[l];
-        let (time, number, chance) = (crew.time[l], lane.particle.number, &mut lane.chance);
+        let (number, chance) = (lane.particle.number, &mut lane.chance);
         // a plain walk's eddy lives as long as where it was met, once there is turbulence
         let place = if walk.drift || chance.place == Surroundings::CALM { here() } else { chance.place };
         chance.eddy = chance.eddy.after(&chance.place, &place, step);
@@ -105,7 +108,7 @@ impl<D: Domain> Tracker<'_, D> {
                 chance.eddies = chance.eddies.wrapping_add(1);
                 (chance.eddies == 1, draws.normals(), draws.open_uniform())
             });
-            let local = self.domain.fluid(x);
+            let local = fluid(x);
             let gust = add(local.velocity, walk.fluctuation(chance.eddy.deviates, &local, nu));
             chance.crossed = time + walk.crossing(chance.place.length, tau, norm(sub(gust, v)));
             crew.bodies.eddy[l] = Some(chance.eddy);
@@ -116,7 +119,7 @@ impl<D: Domain> Tracker<'_, D> {
         over
     }
 
-    fn renew_kick<const W: usize>(&self, crew: &mut Crew<W>, l: usize) {
+    fn renew_kick<const W: usize>(&self, crew: &mut Crew<W, D::Here>, l: usize) {
         let (time, number) = (crew.time[l], crew.lanes[l].particle.number);
         let chance = &mut crew.lanes[l].chance;
         if !self.dynamics.brownian {

@@ -2,16 +2,17 @@
 
 #![allow(clippy::needless_range_loop, reason = "one index runs through several arrays of lanes or components")]
 
-use super::{Lane, Settings};
+use super::Settings;
+use super::lane::Lane;
 use crate::dynamics::Bodies;
 use crate::geometry::Ahead;
 use crate::integrate::{Lanes, Lanes3, Motion, Rates, Step};
 use crate::lanes::{Mask, choose, mask};
 use crate::vector::Vec3;
 
-/// The lanes at work.
+/// The lanes at work, `H` being the pieces of the domain they are in.
 #[repr(align(64))]
-pub(super) struct Crew<const W: usize> {
+pub(super) struct Crew<const W: usize, H> {
     pub lanes: [Lane; W],
     /// Which lanes have a particle.
     pub busy: [bool; W],
@@ -22,6 +23,10 @@ pub(super) struct Crew<const W: usize> {
     pub next: Lanes<W>,
     /// Where the next step must stop: at the end of the run or where something changes.
     pub stop: Lanes<W>,
+    /// The longest step worth trying in the piece each is in, s.
+    pub longest: Lanes<W>,
+    /// The pieces of the domain they are in.
+    pub here: [H; W],
     /// Trial steps so far.
     pub steps: [u64; W],
     pub motion: Motion<W>,
@@ -33,30 +38,35 @@ pub(super) struct Crew<const W: usize> {
     pub step: Step<W>,
 }
 
-impl<const W: usize> Crew<W> {
-    /// Nobody at work.
-    pub const IDLE: Self = Self {
-        lanes: [Lane::IDLE; W],
-        busy: [false; W],
-        quiet: [0; W],
-        time: [0.0; W],
-        next: [0.0; W],
-        stop: [0.0; W],
-        steps: [0; W],
-        motion: Motion::ZERO,
-        rates: Rates::ZERO,
-        stale: [false; W],
-        bodies: Bodies::NONE,
-        h: [0.0; W],
-        step: Step::ZERO,
-    };
+impl<const W: usize, H: Copy> Crew<W, H> {
+    /// No lane at work.
+    pub const fn idle(nowhere: H) -> Self {
+        Self {
+            lanes: [Lane::IDLE; W],
+            busy: [false; W],
+            quiet: [0; W],
+            time: [0.0; W],
+            next: [0.0; W],
+            stop: [0.0; W],
+            longest: [f64::INFINITY; W],
+            here: [nowhere; W],
+            steps: [0; W],
+            motion: Motion::ZERO,
+            rates: Rates::ZERO,
+            stale: [false; W],
+            bodies: Bodies::NONE,
+            h: [0.0; W],
+            step: Step::ZERO,
+        }
+    }
 
     /// Trial steps that overshoot no stop.
     #[inline(always)]
     pub fn set_steps(&mut self) {
         for l in 0..W {
             let rest = self.stop[l] - self.time[l];
-            let h = if self.next[l] < rest { self.next[l] } else { rest };
+            let h = if self.next[l] < self.longest[l] { self.next[l] } else { self.longest[l] };
+            let h = if h < rest { h } else { rest };
             self.h[l] = if self.busy[l] { h } else { 0.0 };
             self.steps[l] += 1;
         }
@@ -81,7 +91,7 @@ impl<const W: usize> Crew<W> {
         let (mut time, mut next) = ([0.0; W], [0.0; W]);
         for l in 0..W {
             time[l] = self.time[l] + self.h[l];
-            next[l] = self.h[l] * factor[l];
+            next[l] = self.after(l, factor[l]);
         }
         choose(&mut self.time, &time, &goes);
         choose(&mut self.next, &next, &goes);
@@ -95,6 +105,15 @@ impl<const W: usize> Crew<W> {
             }
         }
         goes
+    }
+}
+
+impl<const W: usize, H> Crew<W, H> {
+    /// The step to try after one that was good, s: one cut short says nothing against a longer one.
+    #[inline(always)]
+    pub fn after(&self, l: usize, factor: f64) -> f64 {
+        let next = self.h[l] * factor;
+        if next < self.next[l] && factor >= 1.0 { self.next[l] } else { next }
     }
 }
 

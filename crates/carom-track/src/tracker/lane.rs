@@ -1,8 +1,9 @@
 //! One particle in flight.
 
+use super::Particle;
 use super::chance::Chance;
+use super::crew::Crew;
 use super::crew::column;
-use super::{Crew, Particle};
 use crate::geometry::evaluate;
 use crate::integrate::Lanes3;
 use crate::record::Sink;
@@ -16,6 +17,8 @@ pub(super) struct Lane {
     pub impacts: u64,
     /// Impacts in a row during which no time passed.
     pub standing: u32,
+    /// Edges in a row during which no time passed.
+    pub edges: u32,
     /// The trial step was chosen for a wall already seen.
     pub fitted: bool,
     /// Points of the path are wanted.
@@ -42,7 +45,7 @@ impl Lane {
     );
 
     pub const fn new(particle: Particle, trace: bool) -> Self {
-        Self { particle, impacts: 0, standing: 0, fitted: false, trace, chance: Chance::NONE }
+        Self { particle, impacts: 0, standing: 0, edges: 0, fitted: false, trace, chance: Chance::NONE }
     }
 
     /// Nothing about it needs a look when a step of it meets no wall.
@@ -67,9 +70,9 @@ const MOST_POINTS: f64 = 64.0;
 
 /// Tells the sink the path from the start of the step up to `theta` (not included), with as many points as a smooth
 /// line needs: no chord further from the curve than a thousandth of the step's length.
-pub(super) fn trace<const W: usize>(crew: &Crew<W>, l: usize, theta: f64, sink: &mut dyn Sink) {
+pub(super) fn trace<const W: usize, H: Copy>(crew: &Crew<W, H>, l: usize, theta: f64, sink: &mut dyn Sink) {
     let lane = &crew.lanes[l];
-    let (x, _, spin) = super::motion_of(&crew.motion, l);
+    let (x, _, spin) = super::crew::motion_of(&crew.motion, l);
     let path = points(&crew.step.path, l);
     let twist = points(&crew.step.twist, l);
     let size = |p: Vec3| p.iter().fold(0.0f64, |m, c| m.max(c.abs()));

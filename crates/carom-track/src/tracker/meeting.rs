@@ -2,11 +2,12 @@
 
 #![allow(clippy::needless_range_loop, reason = "one index runs through several arrays of lanes or components")]
 
-use super::lane::{Lane, points, trace};
+use super::crew::Crew;
+use super::lane::{Lane, trace};
+use super::walk::finish;
 use super::wall_jet::leave;
-use super::{Behavior, Crew, Particle, Tracker, finish, motion_of};
+use super::{Behavior, Particle, Walk};
 use crate::domain::{Domain, Hit};
-use crate::geometry::evaluate;
 use crate::random::{Purpose, Stream};
 use crate::record::{Event, Fate, ImpactRecord, Sink};
 use crate::vector::{Vec3, add, cross, dot, norm, scale, sub};
@@ -30,19 +31,23 @@ struct After {
     bounces: bool,
 }
 
-impl<D: Domain> Tracker<'_, D> {
+impl<D: Domain> Walk<'_, D> {
     /// Ends a step at a wall, where the sphere arrives with velocity `v`.
     #[inline(always)]
-    pub(super) fn meet<const W: usize>(&self, crew: &mut Crew<W>, l: usize, hit: &Hit, v: Vec3, sink: &mut dyn Sink) {
+    pub(super) fn meet<const W: usize>(
+        &self,
+        crew: &mut Crew<W, D::Here>,
+        l: usize,
+        hit: &Hit,
+        v: Vec3,
+        sink: &mut dyn Sink,
+    ) {
         let theta = hit.meeting.theta;
         let h = crew.h[l];
         if crew.lanes[l].trace {
             trace(crew, l, theta, sink);
         }
-        let mut spin = motion_of(&crew.motion, l).2;
-        if self.dynamics.spins() {
-            spin = add(spin, evaluate(&points(&crew.step.twist, l), theta));
-        }
+        let spin = self.spin_at(crew, l, theta);
         crew.time[l] += theta * h;
         crew.next[l] = if theta > 0.1 { h } else { h * (4.0 * theta).max(1e-3) };
         let lane = &mut crew.lanes[l];
@@ -75,7 +80,7 @@ impl<D: Domain> Tracker<'_, D> {
     }
 
     #[inline(always)]
-    fn outcome<const W: usize>(&self, crew: &Crew<W>, l: usize, hit: &Hit, v: Vec3, spin: Vec3) -> After {
+    fn outcome<const W: usize>(&self, crew: &Crew<W, D::Here>, l: usize, hit: &Hit, v: Vec3, spin: Vec3) -> After {
         let lane = &crew.lanes[l];
         let n = hit.meeting.normal;
         let stay = |event| After {
@@ -133,17 +138,18 @@ impl<D: Domain> Tracker<'_, D> {
 
     /// Would the next bounce rise less than the stated height?
     #[inline(always)]
-    fn settles<const W: usize>(&self, crew: &Crew<W>, l: usize, hit: &Hit, after: &After) -> bool {
+    fn settles<const W: usize>(&self, crew: &Crew<W, D::Here>, l: usize, hit: &Hit, after: &After) -> bool {
         let n = hit.meeting.normal;
         let up = dot(sub(after.velocity, hit.wall_velocity), n);
         let limit = 2.0 * self.settings.settle_height.of(crew.bodies.radius[l]);
         let along = sub(after.velocity, scale(n, up));
         let (x, body) = (hit.meeting.position, crew.bodies.one(l));
+        let here = (crew.here[l], crew.time[l]);
         // a bound first, which costs no power
-        if up > 0.0 && up * up >= limit * self.dynamics.press_at_most(self.domain, &body, x, along, n).max(0.0) {
+        if up > 0.0 && up * up >= limit * self.dynamics.press_at_most(self.domain, here, &body, x, along, n).max(0.0) {
             return false;
         }
-        let a = self.rates_at(&body, x, along, after.spin).a;
+        let a = self.rates_at(here, &body, x, along, after.spin).a;
         let press = -(n[0] * a[0][0] + n[1] * a[1][0] + n[2] * a[2][0]);
         if up <= 0.0 { press >= 0.0 } else { up * up < limit * press }
     }
@@ -169,7 +175,7 @@ fn at_rest(law: &WallLaw, impact: &Impact) -> Event {
 }
 
 #[inline(always)]
-fn put<const W: usize>(crew: &mut Crew<W>, l: usize, x: Vec3, v: Vec3, spin: Vec3) {
+pub(super) fn put<const W: usize, H>(crew: &mut Crew<W, H>, l: usize, x: Vec3, v: Vec3, spin: Vec3) {
     for c in 0..3 {
         crew.motion.x[c][l] = x[c];
         crew.motion.v[c][l] = v[c];

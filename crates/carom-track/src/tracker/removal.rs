@@ -4,8 +4,9 @@
 //! off at once, and its track ends there. It is not put back into flight. At rest at the wall it would be caught again in the next
 //! instant, and how far it rolls, and whether it is lifted out of the boundary layer, no criterion of incipient motion says.
 
+use super::crew::Crew;
 use super::meeting::law_of;
-use super::{Behavior, Crew, Tracker};
+use super::{Behavior, Walk};
 use crate::domain::{Domain, Hit};
 use carom::removal::{Fluid, Mode};
 
@@ -18,15 +19,15 @@ pub struct Removal {
     pub friction_velocity: Option<f64>,
 }
 
-impl<D: Domain> Tracker<'_, D> {
+impl<D: Domain> Walk<'_, D> {
     /// How the flow takes off a sphere that was to stay where it hit, if it does.
-    pub(super) fn removes<const W: usize>(&self, crew: &Crew<W>, l: usize, hit: &Hit) -> Option<Mode> {
+    pub(super) fn removes<const W: usize>(&self, crew: &Crew<W, D::Here>, l: usize, hit: &Hit) -> Option<Mode> {
         let behavior = self.behaviors.get(hit.wall)?;
         let Behavior::Removal(_, removal) = behavior else { return None };
         let particle = &crew.lanes[l].particle;
         let fluid = Fluid { density: self.dynamics.fluid.density, viscosity: self.dynamics.fluid.viscosity };
         let held = law_of(behavior, particle.injection)?.removal(particle.diameter, &fluid).ok()??;
-        let flow = || self.domain.fluid(hit.meeting.position).friction_velocity;
+        let flow = || self.domain.fluid(crew.here[l], crew.time[l], hit.meeting.position).friction_velocity;
         let speed = removal.friction_velocity.unwrap_or_else(flow);
         match removal.mode {
             Some(mode) => held.mode([mode], speed),

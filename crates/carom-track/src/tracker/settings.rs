@@ -44,9 +44,13 @@ const COARSEST: f64 = 1e-5;
 
 impl Settings {
     /// Tolerated error of a step, in a flow that differs from place to place or in one that does not: there an error of the place
-    /// feeds on itself.
-    pub(super) fn per_step(&self, place: bool) -> f64 {
-        let share = if place { 0.5 * PER_STEP } else { PER_STEP };
+    /// feeds on itself. In one made of pieces a sphere may be thrown sideways within a few steps, and everything after has their errors.
+    pub(super) fn per_step(&self, place: bool, pieces: bool) -> f64 {
+        let share = match (place, pieces) {
+            (false, _) => PER_STEP,
+            (true, false) => 0.5 * PER_STEP,
+            (true, true) => 0.08 * PER_STEP,
+        };
         (share * self.tolerance).min(COARSEST)
     }
 }

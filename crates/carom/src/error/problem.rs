@@ -4,7 +4,7 @@ use super::wording::Wording;
 use super::{ErrorKind, nearest};
 use crate::material::PropertyKind;
 use crate::normal::Loss;
-use crate::spec::{Choice, Key};
+use crate::spec::{Choice, Key, NormalKind, TangentialKind};
 use crate::units::UnitError;
 
 /// One mistake with its data. What words need beyond kind, key and value stands here too.
@@ -52,7 +52,7 @@ pub(crate) enum Problem {
     MissingInBoth {
         sphere: String,
         surface: String,
-        property: PropertyKind,
+        properties: [PropertyKind; 2],
         instead: Key,
     },
     OutOfRange {
@@ -107,7 +107,7 @@ pub(crate) enum Problem {
     CurveForm {
         law: Key,
         curve: Key,
-        constant: bool,
+        reader: Choice,
     },
 }
 
@@ -145,7 +145,9 @@ impl Problem {
             Self::OneOf { given, .. } => Some(given.name()),
             Self::MissingMaterial { sphere: true, .. } => Some(Key::Sphere.name()),
             Self::MissingMaterial { .. } => Some(Key::Surface.name()),
-            Self::MissingProperty { property, .. } | Self::MissingInBoth { property, .. } => Some(property.key()),
+            Self::MissingProperty { property, .. } | Self::MissingInBoth { properties: [property, _], .. } => {
+                Some(property.key())
+            }
             Self::OutsideItsRange { key, .. } => Some(key),
             Self::Curve { key, .. } => Some(key.name()),
             Self::CurveForm { law, .. } => Some(law.name()),
@@ -182,6 +184,9 @@ impl Problem {
             Self::UnknownName { what, name, .. } => format!("unknown {what} '{name}'"),
             Self::LossAlone { loss } => format!("'{}' is a loss, not a law", loss.name()),
             Self::UnknownMaterial { name, .. } => format!("unknown material '{name}'"),
+            Self::MissingKey { key: Key::Friction, .. } => {
+                "the law needs a friction coefficient for impacts that slip along the wall".to_owned()
+            }
             Self::MissingKey { key, reader } => format!("{} needs {}", reading(*reader, words), key.noun()),
             Self::MissingMaterial { sphere, surface, reader } => {
                 let what = match (sphere, surface) {
@@ -192,8 +197,8 @@ impl Problem {
                 format!("{} needs {what}", reading(*reader, words))
             }
             Self::MissingProperty { material, property, .. } => format!("{material} has no {}", property.noun()),
-            Self::MissingInBoth { sphere, surface, property, .. } => {
-                format!("neither {sphere} nor {surface} has a {}", property.noun())
+            Self::MissingInBoth { sphere, surface, properties: [a, b], .. } => {
+                format!("neither {sphere} nor {surface} has a {} or a {}", a.noun(), b.noun())
             }
             Self::OutOfRange { key, value, unit, .. } => {
                 let space = if unit.is_empty() { "" } else { " " };
@@ -222,10 +227,7 @@ impl Problem {
                 format!("both '{}' and '{}': the same energy would be counted twice", first.name(), second.name())
             }
             Self::NoLosses => "an empty list of losses".to_owned(),
-            Self::CurveForm { law, constant, .. } => {
-                let kind = if *constant { "constant" } else { "by-angle" };
-                format!("{} does not fit its restitution", words.setting(law.name(), kind))
-            }
+            Self::CurveForm { reader, .. } => format!("{} does not fit its restitution", reader.setting(words)),
         }
     }
 
@@ -260,12 +262,10 @@ impl Problem {
                     None => own,
                 }
             }
-            Self::MissingInBoth { property, instead, .. } => format!(
-                "give {} ({}) of the softer one, or the pair's {}",
-                property.key(),
-                property.symbol(),
-                words.key(instead.name())
-            ),
+            Self::MissingInBoth { properties, instead, .. } => {
+                let [a, b] = properties.map(|p| format!("{} ({})", p.key(), p.symbol()));
+                format!("give {a} or {b} of the softer one, or the pair's {}", words.key(instead.name()))
+            }
             Self::OutOfRange { right, .. } => right.clone(),
             Self::OutsideItsRange { .. } => "the nominal value lies between both ends".to_owned(),
             Self::WrongUnit { .. } | Self::WrongType { .. } => return None,
@@ -284,10 +284,11 @@ impl Problem {
                 words.setting(Key::Normal.name(), "constant"),
                 words.setting(Key::Restitution.name(), "1")
             ),
-            Self::CurveForm { law, constant: true, .. } => {
-                format!("a curve needs {}", words.setting(law.name(), "by-angle"))
+            Self::CurveForm { law, reader: Choice::Normal(NormalKind::ByAngle), .. }
+            | Self::CurveForm { law, reader: Choice::Tangential(TangentialKind::ByAngle), .. } => {
+                format!("a number needs {}", words.setting(law.name(), "constant"))
             }
-            Self::CurveForm { law, .. } => format!("a number needs {}", words.setting(law.name(), "constant")),
+            Self::CurveForm { law, .. } => format!("a curve needs {}", words.setting(law.name(), "by-angle")),
         })
     }
 }

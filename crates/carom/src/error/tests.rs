@@ -56,8 +56,14 @@ fn a_front_has_words_of_its_own() {
         }
     }
     let error = LawError::from(Problem::MissingKey { key: Key::Friction, reader: None });
-    assert_eq!(error.said_in(&Flags), "the law needs a friction coefficient; give --friction 0.2");
-    assert_eq!(error.to_string(), "the law needs a friction coefficient; give friction = 0.2");
+    assert_eq!(
+        error.said_in(&Flags),
+        "the law needs a friction coefficient for impacts that slip along the wall; give --friction 0.2"
+    );
+    assert_eq!(
+        error.to_string(),
+        "the law needs a friction coefficient for impacts that slip along the wall; give friction = 0.2"
+    );
     let error = LawError::from(Problem::UnknownMaterial { name: "x".into(), near: None });
     assert!(error.said_in(&Flags).contains("see the list") && !error.to_string().contains("see the list"));
 }

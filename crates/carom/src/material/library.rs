@@ -4,14 +4,14 @@ use super::Material;
 use crate::error::{LawError, Problem, nearest};
 use std::collections::BTreeMap;
 
-/// The embedded files of `data/materials`; a test keeps this list complete.
+/// The embedded files of the crate's `data/materials`; a test keeps this list complete.
 #[cfg(feature = "toml")]
-pub(super) const BUILTIN: &[(&str, &str)] = &[
-    ("glasses.toml", include_str!("../../../../data/materials/glasses.toml")),
-    ("kim-dunn-2007.toml", include_str!("../../../../data/materials/kim-dunn-2007.toml")),
-    ("metals.toml", include_str!("../../../../data/materials/metals.toml")),
-    ("polymers.toml", include_str!("../../../../data/materials/polymers.toml")),
-    ("powders.toml", include_str!("../../../../data/materials/powders.toml")),
+pub(super) const EMBEDDED: &[(&str, &str)] = &[
+    ("glasses.toml", include_str!("../../data/materials/glasses.toml")),
+    ("kim-dunn-2007.toml", include_str!("../../data/materials/kim-dunn-2007.toml")),
+    ("metals.toml", include_str!("../../data/materials/metals.toml")),
+    ("polymers.toml", include_str!("../../data/materials/polymers.toml")),
+    ("powders.toml", include_str!("../../data/materials/powders.toml")),
 ];
 
 /// A set of materials. Names and aliases are matched without regard to case; `_` and a space count as `-`.
@@ -19,6 +19,8 @@ pub(super) const BUILTIN: &[(&str, &str)] = &[
 pub struct Library {
     materials: BTreeMap<String, Material>,
     aliases: BTreeMap<String, String>,
+    /// What an embedded file was refused for: none in a build that passed its tests.
+    unread: Option<String>,
 }
 
 fn key(name: &str) -> String {
@@ -26,13 +28,24 @@ fn key(name: &str) -> String {
 }
 
 impl Library {
-    /// The materials that come with carom, each value with its source (see `docs/materials.md`).
+    /// The materials that come with carom, each value with its source (see `docs/materials.md`), read once per process.
+    ///
+    /// Clone it to add materials to it.
     #[cfg(feature = "toml")]
-    pub fn builtin() -> Self {
+    pub fn builtin() -> &'static Self {
+        static BUILTIN: std::sync::LazyLock<Library> = std::sync::LazyLock::new(|| Library::embedded(EMBEDDED));
+        &BUILTIN
+    }
+
+    /// A library of embedded files. One that cannot be read is not passed over: [`Library::get`] reports it for every
+    /// name that is missing.
+    #[cfg(feature = "toml")]
+    pub(super) fn embedded(files: &[(&str, &str)]) -> Self {
         let mut library = Self::default();
-        for (_, text) in BUILTIN {
-            // the embedded files are read by a test one by one, so nothing can be refused here
-            let _ = library.extend_from_toml(text);
+        for (name, text) in files {
+            if let Err(e) = library.extend_from_toml(text) {
+                library.unread.get_or_insert_with(|| e.located(name, text));
+            }
         }
         library
     }
@@ -80,6 +93,9 @@ impl Library {
         let wanted = key(name);
         let canonical = self.aliases.get(&wanted).unwrap_or(&wanted);
         self.materials.get(canonical).ok_or_else(|| {
+            if let Some(unread) = &self.unread {
+                return LawError::new(format!("the materials that come with carom cannot be read: {unread}"));
+            }
             let known = self.materials.keys().chain(self.aliases.keys()).map(String::as_str);
             let near = nearest(&wanted, known).map(str::to_owned);
             Problem::UnknownMaterial { name: name.to_owned(), near }.into()

@@ -25,7 +25,7 @@ macro_rules! properties {
                 match self { $(Self::$variant => stringify!($field)),* }
             }
 
-            /// The short form of the key: `rho`, `E`, `nu`, `gamma`, `sigma`.
+            /// The short key of an inline material: `rho`, `E`, `nu`, `gamma`, `sigma`, `H`, `sigma_t`.
             pub fn symbol(self) -> &'static str {
                 match self { $(Self::$variant => $symbol),* }
             }
@@ -86,9 +86,17 @@ properties! {
     SurfaceEnergy surface_energy "gamma": SurfaceEnergy {
         "surface energy", Range::within(0.0, 20.0, "a surface energy lies between 0 and 20 J/m2; a bare number is in J/m2, 40 mJ/m2 is written with its unit")
     }
-    /// Tensile (yield) strength, Pa.
+    /// Yield strength of a body that flows before it breaks, Pa.
     YieldStrength yield_strength "sigma": Pressure {
         "yield strength", Range::above(0.0, "a positive value is wanted")
+    }
+    /// Indentation hardness: mean pressure over the projected area of an indent, Pa.
+    Hardness hardness "H": Pressure {
+        "hardness", Range::above(0.0, "a positive value is wanted")
+    }
+    /// Stress at which a body that does not flow breaks in tension or bending, Pa. No law reads it.
+    TensileStrength tensile_strength "sigma_t": Pressure {
+        "tensile strength", Range::above(0.0, "a positive value is wanted")
     }
 }
 

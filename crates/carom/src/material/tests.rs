@@ -1,23 +1,36 @@
-use super::library::BUILTIN;
+use super::library::EMBEDDED;
 use super::*;
 
 #[test]
 fn every_embedded_file_reads_and_every_file_is_embedded() {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/materials");
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/data/materials");
     let mut names: Vec<String> = std::fs::read_dir(folder)
         .expect("data/materials")
         .map(|f| f.expect("entry").file_name().to_string_lossy().into_owned())
-        .filter(|n| !n.ends_with("-pairs.toml"))
         .collect();
     names.sort();
-    let mut embedded: Vec<&str> = BUILTIN.iter().map(|b| b.0).collect();
+    let mut embedded: Vec<&str> = EMBEDDED.iter().map(|b| b.0).collect();
     embedded.sort_unstable();
     assert_eq!(names, embedded);
-    for (name, text) in BUILTIN {
+    for (name, text) in EMBEDDED {
         if let Err(e) = Library::default().extend_from_toml(text) {
             panic!("{}", e.located(name, text));
         }
     }
+}
+
+#[test]
+fn an_embedded_file_that_cannot_be_read_is_reported() {
+    let good = "[material.x]\ndensity = 8000\n";
+    let library = Library::embedded(&[("bad.toml", "[material.y]\ndensty = 3\n"), ("good.toml", good)]);
+    assert!(library.get("x").is_ok());
+    let e = library.get("y").expect_err("its file is refused").to_string();
+    assert!(e.contains("bad.toml:2:1: ") && e.contains("densty"), "{e}");
+}
+
+#[test]
+fn the_library_is_read_once() {
+    assert!(std::ptr::eq(Library::builtin(), Library::builtin()));
 }
 
 #[test]
@@ -42,6 +55,39 @@ fn every_library_value_has_a_source_and_every_alias_one_owner() {
         }
     }
     assert_eq!(library.get("Stainless Steel").expect("there").name, "stainless-steel");
+}
+
+#[test]
+fn hardness_is_some_three_times_the_yield_strength_and_a_brittle_body_has_no_yield_strength() {
+    let library = Library::builtin();
+    let mut brittle = Vec::new();
+    for m in library.iter() {
+        if let (Some(hardness), Some(sigma)) = (m.hardness, m.yield_strength) {
+            let ratio = hardness / sigma;
+            // 2.8 without work hardening; annealed metals harden under the indenter
+            assert!((2.5..9.0).contains(&ratio), "{}: H is {ratio} sigma", m.name);
+        }
+        if let Some(tensile) = m.tensile_strength {
+            assert!(m.yield_strength.is_none(), "{} both yields and breaks", m.name);
+            assert!(m.hardness.is_some_and(|h| h > 20.0 * tensile), "{}: no hardness far above what breaks it", m.name);
+            brittle.push(m.name.as_str());
+        }
+        // a hardness is a pressure that the elastic half-space can bear: below a fifth of the modulus
+        assert!(m.hardness.zip(m.young_modulus).is_none_or(|(h, e)| h < 0.2 * e), "{}", m.name);
+    }
+    assert_eq!(
+        brittle,
+        [
+            "aluminium-oxide",
+            "aluminium-oxide-kharaz",
+            "borosilicate-glass",
+            "fused-silica",
+            "quartz",
+            "silicon",
+            "soda-lime-glass",
+            "soda-lime-glass-kharaz"
+        ]
+    );
 }
 
 fn refusal(text: &str) -> String {

@@ -1,12 +1,18 @@
 //! The standard normal distribution, with fixed bits.
 
-use super::{exp, ln};
-use std::f64::consts::{FRAC_1_SQRT_2, PI};
+use super::{BEST, Fma, exp_on, ln_on, sqrt};
+use core::f64::consts::{FRAC_1_SQRT_2, PI};
 
 /// Density e^{−x²/2}/√(2π).
 #[inline(always)]
 pub fn normal_density(x: f64) -> f64 {
-    exp(-0.5 * x * x) / (2.0 * PI).sqrt()
+    normal_density_on(BEST, x)
+}
+
+/// As [`normal_density`].
+#[inline(always)]
+pub fn normal_density_on<F: Fma>(f: F, x: f64) -> f64 {
+    exp_on(f, -0.5 * x * x) / sqrt(2.0 * PI)
 }
 
 /// Probability that a standard normal deviate is at most `x`; the lower tail keeps its digits.
@@ -29,13 +35,19 @@ pub fn normal_probability(x: f64) -> f64 {
 /// ```
 #[inline]
 pub fn normal_quantile(p: f64) -> f64 {
+    normal_quantile_on(BEST, p)
+}
+
+/// As [`normal_quantile`].
+#[inline]
+pub fn normal_quantile_on<F: Fma>(f: F, p: f64) -> f64 {
     let q = p - 0.5;
     if q.abs() <= 0.425 {
         let r = 0.180_625 - q * q;
         return q * ratio(r, &CENTRE);
     }
     let tail = if q < 0.0 { p } else { 1.0 - p };
-    let r = (-ln(tail)).sqrt();
+    let r = sqrt(-ln_on(f, tail));
     let z = if r <= 5.0 { ratio(r - 1.6, &MIDDLE) } else { ratio(r - 5.0, &FAR) };
     if q < 0.0 { -z } else { z }
 }

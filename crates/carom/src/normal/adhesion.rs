@@ -37,62 +37,188 @@
 //! ```
 
 use super::Size;
-use crate::math;
-use std::f64::consts::PI;
+use super::inputs::Inputs;
+use super::mechanism::{Account, Mechanism, Stage};
+use super::registry::Term;
+use crate::error::LawError;
+use crate::math::{self, BEST, Fma};
+use crate::spec::Key;
+use crate::validity::Validity;
+use core::f64::consts::PI;
 
 /// Radii are measured in this unit inside the power products, which keeps them far from overflow.
-const RADIUS_UNIT: f64 = 1e-5;
+pub(super) const RADIUS_UNIT: f64 = 1e-5;
 /// Approach speeds are clamped to this range (m/s) inside the power products; outside it every sphere is captured or none is.
 const SPEEDS: (f64, f64) = (1e-18, 1e18);
 
-/// Constants of Ψ_A. With B = 0 the loss vanishes.
+/// Kind of the losses that are an adhesion work.
+pub(super) const ADHESION_WORK: &str = "adhesion work";
+
+/// Constants of Ψ_A, and of the damping that shares it. With B = 0 both vanish.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Work {
     scale: f64,
+    /// C_A of an adhesion damping that was joined to the work, s/m.
+    damping: f64,
 }
 
 impl Work {
     /// From stiffness K (Pa), work of adhesion w (J/m²), roughness factor C_R and sphere density ρ (kg/m³).
     pub fn new(stiffness: f64, work_of_adhesion: f64, roughness_factor: f64, density: f64) -> Self {
         if work_of_adhesion <= 0.0 || roughness_factor <= 0.0 {
-            return Self { scale: 0.0 };
+            return Self::default();
         }
         // one logarithm of everything: no intermediate overflows
         let ln_f0 = (math::ln(9.0 / (2.0 * PI)) + math::ln(stiffness) + 2.0 * math::ln(work_of_adhesion)) / 3.0;
         let ln_rest = 0.6 * (math::ln(1.25) - math::ln(stiffness))
             - 0.4 * (math::ln(4.0 * PI / 3.0) + math::ln(density))
             - (2.0 / 3.0) * math::ln(RADIUS_UNIT);
-        Self { scale: (8.0 * PI / 3.0) * roughness_factor * math::exp(ln_f0 + ln_rest) }
+        Self { scale: (8.0 * PI / 3.0) * roughness_factor * math::exp(ln_f0 + ln_rest), damping: 0.0 }
     }
 
-    /// B, the materials' part.
-    #[inline(always)]
-    pub(crate) fn scale(&self) -> f64 {
-        self.scale
+    /// From a law's materials and C_R.
+    ///
+    /// # Errors
+    /// A material that lacks what the stiffness, the work of adhesion or the mass need.
+    pub fn of(law: &Inputs) -> Result<Self, LawError> {
+        let pair = law.pair()?;
+        Ok(Self::new(pair.stiffness()?, pair.work_of_adhesion()?, law.roughness_factor(), pair.density()?))
     }
 
     /// (v¹²R¹⁰κ⁻⁸)^{−1/15}, R in units of 10 µm.
     #[inline(always)]
-    pub(crate) fn power(&self, v: f64, size: &Size) -> f64 {
+    fn power<F: Fma>(&self, f: F, v: f64, size: &Size) -> f64 {
         let v = v.max(SPEEDS.0).min(SPEEDS.1);
         let v2 = v * v;
         let r = size.radius * (1.0 / RADIUS_UNIT);
         let r2 = r * r;
         // the square root of the product, for a shorter chain and a wider range
         let product = (v2 * v2 * v2) * ((r2 * r2) * r * size_correction(size));
-        math::pow(product, -2.0 / 15.0)
+        math::pow_on(f, product, -2.0 / 15.0)
     }
 
     /// Ψ_A at approach speed `v` (m/s).
-    #[inline(always)]
     pub fn fraction(&self, v: f64, size: &Size) -> f64 {
-        self.scale * self.power(v, size)
+        self.fraction_on(BEST, v, size)
+    }
+
+    #[inline(always)]
+    pub(crate) fn fraction_on<F: Fma>(&self, f: F, v: f64, size: &Size) -> f64 {
+        self.scale * self.power(f, v, size)
+    }
+
+    /// Takes `counted` (1 or 0) times Ψ_A for the work, and Ψ_A C_A v for its damping, as one product: the fewest operations after the
+    /// number that is known last.
+    #[inline(always)]
+    fn take_shares<F: Fma>(&self, f: F, counted: f64, v: f64, size: &Size, account: &mut Account) {
+        let power = self.power(f, v, size);
+        let psi = self.scale * power;
+        let damped = self.damping * v;
+        account.losses.adhesion += counted * psi;
+        account.losses.adhesion_damping += psi * damped;
+        account.left = f.fma(-power, self.scale * (counted + damped), account.left);
     }
 
     /// Capture velocity of this loss alone, m/s: Ψ_A(1)^{5/4} exactly.
     pub fn capture_velocity(&self, size: &Size) -> f64 {
         let one = self.fraction(1.0, size);
-        one * one.sqrt().sqrt()
+        one * math::sqrt(math::sqrt(one))
+    }
+}
+
+impl Mechanism for Work {
+    const NAME: &'static str = "adhesion-work";
+    const KIND: &'static str = ADHESION_WORK;
+    const ABOUT: &'static str =
+        "work of adhesion against a Hertz contact, Ψ_A ∝ C_R v^(-4/5) (Kim & Dunn 2007, Eq. 21)";
+    const STAGE: Stage = Stage::Surface;
+    const KEYS: &'static [Key] = &[
+        Key::WorkOfAdhesion,
+        Key::InterfacialParameter,
+        Key::RoughnessFactor,
+        Key::Roughness,
+        Key::EquilibriumSpacing,
+    ];
+    const ROUGHNESS: bool = true;
+
+    fn from_law(law: &Inputs) -> Result<Self, LawError> {
+        Self::of(law)
+    }
+
+    #[inline(always)]
+    fn take<F: Fma>(&self, f: F, v: f64, size: &Size, account: &mut Account) {
+        self.take_shares(f, 1.0, v, size, account);
+    }
+
+    #[inline(always)]
+    fn is_damping(&self) -> bool {
+        self.damping > 0.0
+    }
+
+    fn capture_velocity(&self, size: &Size) -> Option<f64> {
+        Some(Work::capture_velocity(self, size))
+    }
+
+    fn exhaustion(&self, _: &Size) -> Option<(f64, Validity)> {
+        (self.damping > 0.0).then_some((f64::INFINITY, Validity::DAMPING_EXHAUSTED))
+    }
+}
+
+/// Adhesion damping, Ψ_A C_A v, in a ledger without the adhesion work; beside it, it joins [`Work`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AdhesionDamping(Work);
+
+impl AdhesionDamping {
+    /// From the constants of Ψ_A and C_A (s/m).
+    pub fn new(work: Work, coefficient: f64) -> Self {
+        Self(Work { damping: coefficient, ..work })
+    }
+}
+
+impl Mechanism for AdhesionDamping {
+    const NAME: &'static str = "adhesion-damping";
+    const KIND: &'static str = "adhesion damping";
+    const ABOUT: &'static str = "damping of the adhesion force, Ψ_A C_A v (Kim & Dunn 2007, Eq. 24)";
+    const STAGE: Stage = Stage::Surface;
+    const KEYS: &'static [Key] = &[
+        Key::AdhesionDamping,
+        Key::WorkOfAdhesion,
+        Key::InterfacialParameter,
+        Key::RoughnessFactor,
+        Key::Roughness,
+        Key::EquilibriumSpacing,
+    ];
+    const ROUGHNESS: bool = true;
+
+    fn from_law(law: &Inputs) -> Result<Self, LawError> {
+        let work = Work::of(law)?;
+        let c_a = law.needed(Key::AdhesionDamping)?;
+        Ok(Self::new(work, c_a))
+    }
+
+    #[inline(always)]
+    fn take<F: Fma>(&self, f: F, v: f64, size: &Size, account: &mut Account) {
+        self.0.take_shares(f, 0.0, v, size, account);
+    }
+
+    fn is_idle(&self) -> bool {
+        self.0.damping == 0.0
+    }
+
+    #[inline(always)]
+    fn is_damping(&self) -> bool {
+        true
+    }
+
+    fn exhaustion(&self, _: &Size) -> Option<(f64, Validity)> {
+        Some((f64::INFINITY, Validity::DAMPING_EXHAUSTED))
+    }
+
+    fn join(&self, other: &Term) -> Option<Term> {
+        match other {
+            Term::AdhesionWork(work) => Some(Term::AdhesionWork(Work { damping: self.0.damping, ..*work })),
+            _ => None,
+        }
     }
 }
 
@@ -128,19 +254,52 @@ impl Jkr {
     }
 
     /// V_s², m²/s²: ∝ κ^{4/3} R^{−5/3}.
-    #[inline(always)]
     pub fn sticking_velocity_squared(&self, size: &Size) -> f64 {
+        self.sticking_squared_on(BEST, size)
+    }
+
+    #[inline(always)]
+    fn sticking_squared_on<F: Fma>(&self, f: F, size: &Size) -> f64 {
         let r = size.radius * (1.0 / RADIUS_UNIT);
         let r2 = r * r;
         let k2 = size.kappa * size.kappa;
         let product = (r2 * r2) * r / (k2 * k2);
-        self.scale / size.density_ratio * math::pow(product, -1.0 / 3.0)
+        self.scale / size.density_ratio * math::pow_on(f, product, -1.0 / 3.0)
     }
 
     /// The fraction of the normal kinetic energy that adhesion takes at approach speed `v` (m/s).
-    #[inline(always)]
     pub fn fraction(&self, v: f64, size: &Size) -> f64 {
-        self.sticking_velocity_squared(size) / (v * v).max(f64::MIN_POSITIVE)
+        self.fraction_on(BEST, v, size)
+    }
+
+    #[inline(always)]
+    fn fraction_on<F: Fma>(&self, f: F, v: f64, size: &Size) -> f64 {
+        self.sticking_squared_on(f, size) / (v * v).max(f64::MIN_POSITIVE)
+    }
+}
+
+impl Mechanism for Jkr {
+    const NAME: &'static str = "adhesion-jkr";
+    const KIND: &'static str = ADHESION_WORK;
+    const ABOUT: &'static str =
+        "energy that tearing a JKR contact takes, (V_s/v)² (Thornton & Ning 1998); knows no roughness";
+    const STAGE: Stage = Stage::Surface;
+    const KEYS: &'static [Key] = &[Key::WorkOfAdhesion, Key::InterfacialParameter, Key::EquilibriumSpacing];
+
+    fn from_law(law: &Inputs) -> Result<Self, LawError> {
+        let pair = law.pair()?;
+        Ok(Self::new(pair.effective_modulus()?, pair.work_of_adhesion()?, pair.density()?))
+    }
+
+    #[inline(always)]
+    fn take<F: Fma>(&self, f: F, v: f64, size: &Size, account: &mut Account) {
+        let fraction = self.fraction_on(f, v, size);
+        account.losses.adhesion += fraction;
+        account.left -= fraction;
+    }
+
+    fn capture_velocity(&self, size: &Size) -> Option<f64> {
+        Some(math::sqrt(self.sticking_velocity_squared(size)))
     }
 }
 

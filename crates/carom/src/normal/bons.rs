@@ -30,6 +30,13 @@
 //! ```
 
 use super::Size;
+use super::inputs::Inputs;
+use super::mechanism::{Account, Mechanism, Stage};
+use super::plastic::PLASTIC_LOSS;
+use crate::error::LawError;
+use crate::math::{self, Fma};
+use crate::spec::Key;
+use crate::validity::Validity;
 
 /// Bons' plastic loss for one pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,18 +64,59 @@ impl Bons {
     }
 }
 
+impl Mechanism for Bons {
+    const NAME: &'static str = "plastic-bons";
+    const KIND: &'static str = PLASTIC_LOSS;
+    const ABOUT: &'static str =
+        "energy an elastic bar can store at yield, e = V_y/v above it (Bons et al. 2017, as derived here)";
+    const STAGE: Stage = Stage::Bulk;
+    const KEYS: &'static [Key] = &[Key::PlasticConstant, Key::DynamicStrengthFactor];
+
+    fn from_law(law: &Inputs) -> Result<Self, LawError> {
+        let pair = law.pair()?;
+        let strength = 2.0 * pair.plastic_constant()?;
+        Ok(Self::new(pair.effective_modulus()?, strength, pair.density()?))
+    }
+
+    #[inline(always)]
+    fn take<F: Fma>(&self, _: F, v: f64, size: &Size, account: &mut Account) {
+        let fraction = self.fraction(v, size);
+        account.losses.plastic += fraction;
+        account.bulk += fraction;
+    }
+
+    #[inline(always)]
+    fn yield_squared(&self, size: &Size) -> f64 {
+        Bons::yield_squared(self, size)
+    }
+
+    fn exhaustion(&self, size: &Size) -> Option<(f64, Validity)> {
+        Some((math::sqrt(Bons::yield_squared(self, size)), Validity::PLASTIC_EXHAUSTED))
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::normal::adhesion::{Jkr, Work};
-    use crate::normal::damping::Damping;
-    use crate::normal::ledger::{Adhesion, Ledger, Plastic};
+    use crate::normal::adhesion::{AdhesionDamping, Jkr, Work};
+    use crate::normal::damping::HertzDamping;
+    use crate::normal::{Ledger, Term};
 
     const SIZE: Size = Size { radius: 5e-6, kappa: 1.0, density_ratio: 1.0 };
 
-    fn ledger(adhesion: Adhesion, w: f64, damping: Damping) -> Ledger {
+    /// Bons' loss with an adhesion and damping coefficients C_A, C_H.
+    fn ledger(adhesion: Option<Term>, w: f64, c_a: f64, c_h: f64) -> Ledger {
         let work = Work::new(127.8e9, w, 0.5, 8000.0);
-        Ledger { adhesion, work, damping, plastic: Plastic::Bons(Bons::new(95.85e9, 310e6, 8000.0)) }
+        let bons = Term::PlasticBons(Bons::new(95.85e9, 310e6, 8000.0));
+        let damping = [
+            Term::AdhesionDamping(AdhesionDamping::new(work, c_a)),
+            Term::HertzDamping(HertzDamping { coefficient: c_h }),
+        ];
+        Ledger::new([bons].into_iter().chain(adhesion).chain(damping)).expect("one of each kind")
+    }
+
+    fn work(w: f64) -> Work {
+        Work::new(127.8e9, w, 0.5, 8000.0)
     }
 
     #[test]
@@ -90,11 +138,11 @@ mod tests {
 
     #[test]
     fn adhesion_brings_a_second_root_at_high_speed() {
-        let ledger = ledger(Adhesion::Work, 1.0, Damping::default());
+        let ledger = ledger(Some(Term::AdhesionWork(work(1.0))), 1.0, 0.0, 0.0);
         let window = ledger.window(&SIZE).expect("it rebounds");
-        assert_eq!(window.capture_velocity, ledger.work.capture_velocity(&SIZE));
+        assert_eq!(window.capture_velocity, work(1.0).capture_velocity(&SIZE));
         for (v, open_above) in [(window.capture_velocity, true), (window.exhausted_velocity, false)] {
-            let [below, above] = [1.0 - 1e-9, 1.0 + 1e-9].map(|f| ledger.balance(v * f, &SIZE).left > 0.0);
+            let [below, above] = [1.0 - 1e-9, 1.0 + 1e-9].map(|f| ledger.left(v * f, &SIZE) > 0.0);
             assert_eq!([below, above], [!open_above, open_above], "{window:?}");
         }
         assert_eq!(ledger.restitution(1e3 * window.exhausted_velocity, &SIZE), 0.0);
@@ -103,18 +151,19 @@ mod tests {
     /// The window against a plain search over speeds, damped and not.
     #[test]
     fn windows_hold_every_speed_of_rebound() {
-        let jkr = Adhesion::Jkr(Jkr::new(95.85e9, 1.0, 8000.0));
         let mut closed = 0;
-        for adhesion in [Adhesion::None, Adhesion::Work, jkr] {
+        for adhesion in 0..3 {
             for (a, h) in [(0.0, 0.0), (0.05, 0.0), (0.0, 0.01), (1.3, 0.007), (200.0, 0.0), (0.0, 5.0)] {
                 for w in [0.05, 1.0, 300.0] {
-                    let ledger = ledger(adhesion, w, Damping { adhesion: a, hertz: h });
+                    let jkr = Term::AdhesionJkr(Jkr::new(95.85e9, 1.0, 8000.0));
+                    let term = [None, Some(Term::AdhesionWork(work(w))), Some(jkr)][adhesion];
+                    let ledger = ledger(term, w, a, h);
                     let window = ledger.window(&SIZE);
                     closed += u32::from(window.is_none());
                     for i in 0..3000 {
                         let v = 10f64.powf(f64::from(i) / 300.0 - 4.0);
                         let inside = window.is_some_and(|w| v > w.capture_velocity && v < w.exhausted_velocity);
-                        let rebounds = ledger.balance(v, &SIZE).left > 0.0;
+                        let rebounds = ledger.left(v, &SIZE) > 0.0;
                         assert_eq!(rebounds, inside, "{ledger:?} at {v}: {window:?}");
                     }
                 }

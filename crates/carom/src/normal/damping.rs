@@ -19,28 +19,62 @@
 //! assert!((psi_h - 0.907218423253029).abs() < 1e-15);
 //! ```
 
+use super::Size;
+use super::inputs::Inputs;
+use super::mechanism::{Account, Mechanism, Stage};
+use crate::error::LawError;
+use crate::math::Fma;
+use crate::spec::Key;
+use crate::validity::Validity;
+
 /// (5/2)(2/3)^{5/2} = (10/9)√(2/3).
 pub const HERTZ: f64 = 0.907_218_423_253_029;
 
-/// Damping coefficients, s/m; zero for none.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Damping {
-    /// C_A.
-    pub adhesion: f64,
-    /// C_H.
-    pub hertz: f64,
+/// Hertzian damping: Ψ_H C_H.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HertzDamping {
+    /// C_H, s/m.
+    pub coefficient: f64,
 }
 
-impl Damping {
-    /// Fraction lost to Hertzian damping at approach speed `v` (m/s).
+impl HertzDamping {
+    /// Fraction of the normal kinetic energy lost at approach speed `v` (m/s).
     #[inline(always)]
-    pub fn hertz_fraction(&self, v: f64) -> f64 {
-        HERTZ * self.hertz * v
+    pub fn fraction(&self, v: f64) -> f64 {
+        HERTZ * self.coefficient * v
+    }
+}
+
+impl Mechanism for HertzDamping {
+    const NAME: &'static str = "hertz-damping";
+    const KIND: &'static str = "Hertzian damping";
+    const ABOUT: &'static str = "damping in the bodies, Ψ_H C_H = 0.907 C_H v (Kim & Dunn 2007, Eq. 23)";
+    const STAGE: Stage = Stage::Bulk;
+    const KEYS: &'static [Key] = &[Key::HertzDamping];
+
+    fn from_law(law: &Inputs) -> Result<Self, LawError> {
+        let coefficient = law.needed(Key::HertzDamping)?;
+        Ok(Self { coefficient })
     }
 
-    /// No damping at all?
-    pub fn is_none(&self) -> bool {
-        self.adhesion == 0.0 && self.hertz == 0.0
+    #[inline(always)]
+    fn take<F: Fma>(&self, _: F, v: f64, _: &Size, account: &mut Account) {
+        let fraction = self.fraction(v);
+        account.losses.hertz_damping += fraction;
+        account.bulk += fraction;
+    }
+
+    fn is_idle(&self) -> bool {
+        self.coefficient == 0.0
+    }
+
+    #[inline(always)]
+    fn is_damping(&self) -> bool {
+        true
+    }
+
+    fn exhaustion(&self, _: &Size) -> Option<(f64, Validity)> {
+        Some((1.0 / (HERTZ * self.coefficient), Validity::DAMPING_EXHAUSTED))
     }
 }
 

@@ -15,16 +15,17 @@
 //! ```
 
 use crate::error::LawError;
-use std::f64::consts::FRAC_PI_2;
+use crate::math::{self, BEST, Fma};
+use core::f64::consts::FRAC_PI_2;
 
 /// Most coefficients of one polynomial.
 pub const MAX_COEFFICIENTS: usize = 8;
 /// Most points or pieces of one table.
 pub const MAX_PIECES: usize = 64;
 
-/// One polynomial on `[from, to]` (rad), in powers of (angle − origin), lowest first.
+/// One polynomial on `[from, to]` (rad), in powers of (angle − origin), lowest first: plain numbers, for the kernel's tables.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Piece {
+pub struct Piece {
     from: f64,
     to: f64,
     origin: f64,
@@ -61,9 +62,9 @@ impl Piece {
     }
 
     #[inline(always)]
-    fn at(&self, angle: f64) -> f64 {
+    fn at<F: Fma>(&self, f: F, angle: f64) -> f64 {
         let x = angle.max(self.from).min(self.to) - self.origin;
-        self.coefficients.iter().rev().fold(0.0, |sum, &c| f64::mul_add(sum, x, c))
+        self.coefficients.iter().rev().fold(0.0, |sum, &c| f.fma(sum, x, c))
     }
 }
 
@@ -129,13 +130,8 @@ impl AngleTable {
     }
 
     /// Value at an angle from the surface (rad), [0, π/2].
-    #[inline(always)]
     pub fn at(&self, angle: f64) -> f64 {
-        let mut chosen = 0;
-        while chosen + 1 < self.pieces.len() && angle > self.pieces[chosen].to {
-            chosen += 1;
-        }
-        self.pieces.get(chosen).map_or(0.0, |p| p.at(angle))
+        value_at(BEST, &self.pieces, angle)
     }
 
     /// Refuses a curve that leaves [low, high] somewhere in (0°, 90°].
@@ -154,6 +150,14 @@ impl AngleTable {
         }
         Ok(())
     }
+}
+
+/// Value of a curve at an angle from the surface (rad), [0, π/2].
+#[inline(always)]
+fn value_at<F: Fma>(f: F, pieces: &[Piece], angle: f64) -> f64 {
+    debug_assert!(!pieces.is_empty(), "a curve has at least one piece");
+    let chosen = pieces.iter().position(|p| angle <= p.to).unwrap_or(pieces.len().saturating_sub(1));
+    pieces.get(chosen).map_or(0.0, |p| p.at(f, angle))
 }
 
 fn check_interval(from: f64, to: f64) -> Result<(), LawError> {
@@ -175,12 +179,43 @@ pub enum Curve {
 }
 
 impl Curve {
+    /// As plain numbers; its pieces, if any, go to the end of `tables`.
+    pub(crate) fn look_up_in(&self, tables: &mut Vec<Piece>) -> Lookup {
+        match self {
+            Self::Constant(value) => Lookup::Constant(*value),
+            Self::ByAngle(table) => {
+                let first = tables.len() as u32;
+                tables.extend_from_slice(&table.pieces);
+                Lookup::ByAngle { first, count: table.pieces.len() as u32 }
+            }
+        }
+    }
+}
+
+/// A compiled curve: a constant, or where its pieces stand in the kernel's tables.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Lookup {
+    /// The same at every angle.
+    Constant(f64),
+    /// By angle of incidence.
+    ByAngle {
+        /// Index of the first piece.
+        first: u32,
+        /// How many pieces.
+        count: u32,
+    },
+}
+
+impl Lookup {
     /// Value for the given normal and tangential approach speeds, clamped to [low, high].
     #[inline(always)]
-    pub fn at(&self, normal: f64, tangential: f64, low: f64, high: f64) -> f64 {
-        match self {
-            Self::Constant(value) => *value,
-            Self::ByAngle(table) => table.at(crate::math::angle(tangential, normal)).max(low).min(high),
+    pub(crate) fn at<F: Fma>(&self, f: F, pieces: &[Piece], normal: f64, tangential: f64, low: f64, high: f64) -> f64 {
+        match *self {
+            Self::Constant(value) => value,
+            Self::ByAngle { first, count } => {
+                let own = pieces.get(first as usize..first as usize + count as usize).unwrap_or(&[]);
+                value_at(f, own, math::angle_on(f, tangential, normal)).max(low).min(high)
+            }
         }
     }
 }

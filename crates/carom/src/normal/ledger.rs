@@ -1,333 +1,148 @@
 //! The energy ledger: a list of losses, and the restitution they leave.
 //!
 //! e² = 1 − Σ ε_i(v), Kim & Dunn (2007), Eqs 24 and 37, J. Aerosol Sci. 38, 532–549,
-//! <https://doi.org/10.1016/j.jaerosci.2007.03.006>. e² ≤ 0 is capture. At most one of the two adhesion works and one of the
-//! four plastic losses may stand in a ledger: two of a kind would count the same energy twice.
+//! <https://doi.org/10.1016/j.jaerosci.2007.03.006>. e² ≤ 0 is capture. At most one loss of a kind may stand in a ledger: two would
+//! count the same energy twice. Bulk losses come first, since some surface losses depend on what those left.
 //!
 //! The additive sum is an approximation where losses act on the same contact: adhesion work above yield keeps the elastic
 //! contact radius, and damping fitted on elastic contacts beside a plastic loss may count energy twice (`losses-overlap`).
 
 use super::Size;
-use super::adhesion::{Jkr, Work};
-use super::bons::Bons;
-use super::damping::Damping;
-use super::plastic::Kadomtsev;
-use super::tabor::Tabor;
-use super::thornton_ning::ThorntonNing;
+use super::mechanism::{Account, Losses, Stage};
+use super::registry::{Loss, Term};
+use crate::math::{BEST, Fma};
 
-/// One loss mechanism, by its name in a law file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Loss {
-    /// `adhesion-work`
-    AdhesionWork,
-    /// `adhesion-damping`
-    AdhesionDamping,
-    /// `hertz-damping`
-    HertzDamping,
-    /// `plastic-kadomtsev`
-    PlasticKadomtsev,
-    /// `plastic-thornton-ning`
-    PlasticThorntonNing,
-    /// `plastic-tabor`
-    PlasticTabor,
-    /// `plastic-bons`
-    PlasticBons,
-    /// `adhesion-jkr`
-    AdhesionJkr,
-}
+/// Most losses of one law: one of each kind.
+pub const MOST_LOSSES: usize = 5;
 
-impl Loss {
-    /// Every loss, in the order of the documentation.
-    pub const ALL: [Self; 8] = [
-        Self::AdhesionWork,
-        Self::AdhesionDamping,
-        Self::HertzDamping,
-        Self::PlasticKadomtsev,
-        Self::PlasticThorntonNing,
-        Self::PlasticTabor,
-        Self::PlasticBons,
-        Self::AdhesionJkr,
-    ];
-
-    /// Its name in a law file.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::AdhesionWork => "adhesion-work",
-            Self::AdhesionDamping => "adhesion-damping",
-            Self::HertzDamping => "hertz-damping",
-            Self::PlasticKadomtsev => "plastic-kadomtsev",
-            Self::PlasticThorntonNing => "plastic-thornton-ning",
-            Self::PlasticTabor => "plastic-tabor",
-            Self::PlasticBons => "plastic-bons",
-            Self::AdhesionJkr => "adhesion-jkr",
-        }
-    }
-
-    /// What it is an instance of: two losses of a kind cannot share a ledger.
-    pub fn kind(self) -> &'static str {
-        match self {
-            Self::AdhesionWork | Self::AdhesionJkr => "adhesion work",
-            Self::PlasticKadomtsev | Self::PlasticThorntonNing | Self::PlasticTabor | Self::PlasticBons => {
-                "plastic loss"
-            }
-            Self::AdhesionDamping => "adhesion damping",
-            Self::HertzDamping => "Hertzian damping",
-        }
-    }
-}
-
-/// The adhesion work of a ledger.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Adhesion {
-    /// None.
-    None,
-    /// Kim and Dunn's.
-    Work,
-    /// Thornton and Ning's.
-    Jkr(Jkr),
-}
-
-/// The plastic loss of a ledger.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Plastic {
-    /// None.
-    None,
-    /// Kadomtsev's.
-    Kadomtsev(Kadomtsev),
-    /// Thornton and Ning's.
-    ThorntonNing(ThorntonNing),
-    /// Tabor's.
-    Tabor(Tabor),
-    /// Bons'.
-    Bons(Bons),
-}
-
-/// Compiled losses. `work` holds the constants of Ψ_A whether the adhesion work itself is in the ledger or only its damping.
+/// Compiled losses: plain numbers, the bulk losses first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ledger {
-    /// Which adhesion work counts.
-    pub adhesion: Adhesion,
-    /// Constants of Ψ_A.
-    pub work: Work,
-    /// Damping coefficients.
-    pub damping: Damping,
-    /// The plastic loss.
-    pub plastic: Plastic,
+    terms: [Option<Term>; MOST_LOSSES],
+    bulk: u8,
+    count: u8,
 }
 
-/// Fractions ε_i of the normal kinetic energy, each ≥ 0; the sum may exceed 1 (capture).
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Losses {
-    /// Either adhesion work.
-    pub adhesion: f64,
-    /// Adhesion damping.
-    pub adhesion_damping: f64,
-    /// Hertzian damping.
-    pub hertz_damping: f64,
-    /// Any plastic loss.
-    pub plastic: f64,
-}
-
-impl Losses {
-    /// Σ ε_i, in a fixed order.
-    #[inline(always)]
-    pub fn total(&self) -> f64 {
-        (self.plastic + self.hertz_damping) + (self.adhesion + self.adhesion_damping)
-    }
-
-    /// e, 0 when nothing is left.
-    #[inline(always)]
-    pub fn restitution(&self) -> f64 {
-        let e2 = 1.0 - self.total();
-        if e2 > 0.0 { e2.sqrt() } else { 0.0 }
-    }
-}
-
-/// A plastic loss as a type, so that a batch loop holds no branch on its kind.
-pub(crate) trait PlasticLoss: Copy {
-    fn lost(&self, v: f64, size: &Size) -> f64;
-}
-#[derive(Clone, Copy)]
-pub(crate) struct Elastic;
-impl PlasticLoss for Elastic {
-    #[inline(always)]
-    fn lost(&self, _: f64, _: &Size) -> f64 {
-        0.0
-    }
-}
-impl PlasticLoss for Kadomtsev {
-    #[inline(always)]
-    fn lost(&self, v: f64, size: &Size) -> f64 {
-        self.fraction(v, size)
-    }
-}
-impl PlasticLoss for ThorntonNing {
-    #[inline(always)]
-    fn lost(&self, v: f64, size: &Size) -> f64 {
-        self.fraction(v, size)
-    }
-}
-impl PlasticLoss for Bons {
-    #[inline(always)]
-    fn lost(&self, v: f64, size: &Size) -> f64 {
-        self.fraction(v, size)
-    }
-}
-
-/// What the losses took and what they left.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Balance {
-    pub losses: Losses,
-    /// e², not above zero for a capture: 1 − Σ ε_i with the fewest operations after the last-known number, Ψ_A.
-    pub left: f64,
-}
-
-impl Balance {
-    #[inline(always)]
-    pub fn restitution(&self) -> f64 {
-        if self.left > 0.0 { self.left.sqrt() } else { 0.0 }
-    }
-}
-
-/// The losses that grow with Ψ_A, as a type, likewise.
-pub(crate) trait AdhesiveLoss: Copy {
-    fn share(&self, v: f64, size: &Size) -> Adhesive;
-}
-/// (adhesion, adhesion damping), and their sum as a product.
-#[derive(Clone, Copy, Default)]
-pub(crate) struct Adhesive {
-    adhesion: f64,
-    damping: f64,
-    power: f64,
-    weight: f64,
-}
-/// Ψ_A (counted or not) with its damping.
-#[derive(Clone, Copy)]
-pub(crate) struct WorkLoss {
-    work: Work,
-    counted: f64,
-    damping: f64,
-}
-impl AdhesiveLoss for WorkLoss {
-    #[inline(always)]
-    fn share(&self, v: f64, size: &Size) -> Adhesive {
-        let power = self.work.power(v, size);
-        let psi = self.work.scale() * power;
-        let damped = self.damping * v;
-        let weight = self.work.scale() * (self.counted + damped);
-        Adhesive { adhesion: self.counted * psi, damping: psi * damped, power, weight }
-    }
-}
-#[derive(Clone, Copy)]
-pub(crate) struct NoAdhesion;
-impl AdhesiveLoss for NoAdhesion {
-    #[inline(always)]
-    fn share(&self, _: f64, _: &Size) -> Adhesive {
-        Adhesive::default()
-    }
-}
-
-#[inline(always)]
-pub(crate) fn balance<A: AdhesiveLoss, P: PlasticLoss>(
-    adhesive: &A,
-    plastic: &P,
-    damping: &Damping,
-    v: f64,
-    size: &Size,
-) -> Balance {
-    settle(&adhesive.share(v, size), plastic.lost(v, size), damping.hertz_fraction(v), 0.0)
-}
-
-#[inline(always)]
-fn settle(adhesive: &Adhesive, plastic: f64, hertz: f64, jkr: f64) -> Balance {
-    Balance {
-        losses: Losses {
-            adhesion: adhesive.adhesion + jkr,
-            adhesion_damping: adhesive.damping,
-            hertz_damping: hertz,
-            plastic,
-        },
-        left: (-adhesive.power).mul_add(adhesive.weight, 1.0 - (plastic + hertz) - jkr),
-    }
-}
+/// Two losses that cannot share a ledger.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TwoOfAKind(pub Loss, pub Loss);
 
 impl Ledger {
-    /// A ledger with no loss at all: e = 1.
-    pub fn lossless() -> Self {
-        Self { adhesion: Adhesion::None, work: Work::default(), damping: Damping::default(), plastic: Plastic::None }
+    /// From compiled losses, in any order.
+    ///
+    /// # Errors
+    /// Two losses of a kind.
+    pub fn new(terms: impl IntoIterator<Item = Term>) -> Result<Self, TwoOfAKind> {
+        let mut ledger = Self { terms: [None; MOST_LOSSES], bulk: 0, count: 0 };
+        for term in terms {
+            ledger.add(term)?;
+        }
+        ledger.join_terms();
+        Ok(ledger)
     }
 
-    #[inline(always)]
-    pub(crate) fn work_loss(&self) -> WorkLoss {
-        let counted = f64::from(u8::from(self.adhesion == Adhesion::Work));
-        WorkLoss { work: self.work, counted, damping: self.damping.adhesion }
+    fn add(&mut self, term: Term) -> Result<(), TwoOfAKind> {
+        if let Some(other) = self.terms().find(|t| t.loss().kind() == term.loss().kind()) {
+            return Err(TwoOfAKind(other.loss(), term.loss()));
+        }
+        debug_assert!(usize::from(self.count) < MOST_LOSSES, "as many places as there are kinds");
+        if term.is_idle() {
+            return Ok(());
+        }
+        let order = |t: &Term| (t.stage(), t.loss() as u8);
+        let place = self.terms().take_while(|t| order(t) < order(&term)).count();
+        self.terms[place..=usize::from(self.count)].rotate_right(1);
+        self.terms[place] = Some(term);
+        self.count += 1;
+        self.bulk += u8::from(term.stage() == Stage::Bulk);
+        Ok(())
     }
 
-    /// Whether Ψ_A is needed at all.
-    #[inline(always)]
-    pub(crate) fn uses_work(&self) -> bool {
-        self.adhesion == Adhesion::Work || self.damping.adhesion != 0.0
+    /// Losses that share a factor become one term, so that the factor is computed once.
+    fn join_terms(&mut self) {
+        for i in 0..MOST_LOSSES {
+            for j in i + 1..MOST_LOSSES {
+                let (Some(first), Some(second)) = (self.terms[i], self.terms[j]) else { continue };
+                if let Some(both) = second.join(&first) {
+                    self.terms[i] = Some(both);
+                    self.terms[j..].rotate_left(1);
+                    self.terms[MOST_LOSSES - 1] = None;
+                    self.count -= 1;
+                }
+            }
+        }
     }
 
+    /// The losses, bulk losses first. Losses that share a factor stand as one.
     #[inline(always)]
-    pub(crate) fn balance(&self, v: f64, size: &Size) -> Balance {
-        let adhesive = if self.uses_work() { self.work_loss().share(v, size) } else { Adhesive::default() };
-        let jkr = match &self.adhesion {
-            Adhesion::Jkr(jkr) => jkr.fraction(v, size),
-            _ => 0.0,
-        };
-        let plastic = match &self.plastic {
-            Plastic::None => 0.0,
-            Plastic::Kadomtsev(p) => p.fraction(v, size),
-            Plastic::ThorntonNing(p) => p.fraction(v, size),
-            Plastic::Tabor(p) => p.fraction(v),
-            Plastic::Bons(p) => p.fraction(v, size),
-        };
-        settle(&adhesive, plastic, self.damping.hertz_fraction(v), jkr)
+    pub fn terms(&self) -> impl Iterator<Item = &Term> {
+        self.terms.iter().map_while(Option::as_ref)
+    }
+
+    /// The terms that take from the deformation, and those that take from what it leaves.
+    #[inline(always)]
+    pub(crate) fn stages(&self) -> (&[Option<Term>], &[Option<Term>]) {
+        let terms = &self.terms[..usize::from(self.count).min(MOST_LOSSES)];
+        terms.split_at(usize::from(self.bulk).min(terms.len()))
+    }
+
+    /// What the losses take at normal approach speed `v` (m/s), and what they leave.
+    #[inline(always)]
+    pub(crate) fn balance<F: Fma>(&self, f: F, v: f64, size: &Size) -> Account {
+        let mut account = Account::default();
+        let (bulk, surface) = self.stages();
+        for term in bulk.iter().flatten() {
+            term.take(f, v, size, &mut account);
+        }
+        account.left = 1.0 - account.bulk;
+        for term in surface.iter().flatten() {
+            term.take(f, v, size, &mut account);
+        }
+        account
+    }
+
+    /// What is left of the normal kinetic energy at approach speed `v` (m/s): e² where it is above zero.
+    pub fn left(&self, v: f64, size: &Size) -> f64 {
+        self.balance(BEST, v, size).left
     }
 
     /// The fractions lost at normal approach speed `v` (m/s).
     pub fn losses(&self, v: f64, size: &Size) -> Losses {
-        self.balance(v, size).losses
+        self.balance(BEST, v, size).losses
     }
 
     /// Restitution at normal approach speed `v` (m/s).
     ///
     /// ```
-    /// use carom::normal::{Ledger, Size, adhesion::Work, ledger::Adhesion};
-    /// let ledger = Ledger { adhesion: Adhesion::Work, work: Work::new(127.8e9, 3.03, 0.15, 8000.0), ..Ledger::lossless() };
+    /// use carom::normal::{Ledger, Size, Term, adhesion::Work};
+    /// let ledger = Ledger::new([Term::AdhesionWork(Work::new(127.8e9, 3.03, 0.15, 8000.0))]).expect("one loss");
     /// assert!((ledger.restitution(1.0, &Size::flat(35e-6)) - 0.9728).abs() < 1e-4);
     /// ```
-    #[inline(always)]
     pub fn restitution(&self, v: f64, size: &Size) -> f64 {
-        self.balance(v, size).restitution()
+        self.balance(BEST, v, size).restitution()
     }
 
-    /// Yield velocity of the ledger's own plastic loss, m/s.
+    /// Yield velocity of the ledger's own plastic loss, m/s; `None` without one.
     pub fn yield_velocity(&self, size: &Size) -> Option<f64> {
-        match &self.plastic {
-            Plastic::None => None,
-            Plastic::Kadomtsev(p) => Some(p.yield_squared(size).sqrt()),
-            Plastic::ThorntonNing(p) => Some(p.yield_squared(size).sqrt()),
-            Plastic::Tabor(p) => Some(p.yield_velocity),
-            Plastic::Bons(p) => Some(p.yield_squared(size).sqrt()),
-        }
-    }
-
-    /// Can the plastic loss end the rebound at high speed, as damping can?
-    pub fn plastic_can_exhaust(&self) -> bool {
-        matches!(self.plastic, Plastic::Bons(_))
+        let square = self.yield_squared(size);
+        square.is_finite().then(|| crate::math::sqrt(square))
     }
 
     /// (V_y)², infinite without a plastic loss; cheap enough for every impact.
     #[inline(always)]
     pub(crate) fn yield_squared(&self, size: &Size) -> f64 {
-        match &self.plastic {
-            Plastic::None => f64::INFINITY,
-            Plastic::Kadomtsev(p) => p.yield_squared(size),
-            Plastic::ThorntonNing(p) => p.yield_squared(size),
-            Plastic::Tabor(p) => p.yield_velocity * p.yield_velocity,
-            Plastic::Bons(p) => p.yield_squared(size),
-        }
+        let (bulk, _) = self.stages();
+        bulk.iter().flatten().fold(f64::INFINITY, |least, term| least.min(term.yield_squared(size)))
+    }
+
+    /// Does damping fitted on elastic contacts stand in it?
+    #[inline(always)]
+    pub(crate) fn is_damped(&self) -> bool {
+        self.terms().any(Term::is_damping)
+    }
+
+    /// Can the rebound end at high speed?
+    pub fn can_exhaust(&self) -> bool {
+        self.terms().any(|t| t.exhaustion(&Size::flat(1e-5)).is_some())
     }
 }

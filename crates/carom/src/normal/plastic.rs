@@ -25,7 +25,15 @@
 //! ```
 
 use super::Size;
-use std::f64::consts::PI;
+use super::inputs::Inputs;
+use super::mechanism::{Account, Mechanism, Stage};
+use crate::error::LawError;
+use crate::math::{self, BEST, Fma};
+use crate::spec::Key;
+use core::f64::consts::PI;
+
+/// Kind of the plastic losses.
+pub(super) const PLASTIC_LOSS: &str = "plastic loss";
 
 /// λ of the limiting pressure λk.
 pub const LAMBDA: f64 = 5.7;
@@ -55,47 +63,78 @@ impl Kadomtsev {
         self.yield_squared * (size.kappa * size.kappa * size.kappa) / size.density_ratio
     }
 
-    /// Fraction of the normal kinetic energy lost at approach speed `v`.
-    #[inline(always)]
+    /// Fraction of the normal kinetic energy lost at approach speed `v` (m/s).
     pub fn fraction(&self, v: f64, size: &Size) -> f64 {
-        1.0 - universal_of_square(v * v / self.yield_squared(size), BETA)
+        self.fraction_on(BEST, v, size)
+    }
+
+    #[inline(always)]
+    fn fraction_on<F: Fma>(&self, f: F, v: f64, size: &Size) -> f64 {
+        1.0 - universal_of_square(f, v * v / self.yield_squared(size), BETA)
+    }
+}
+
+impl Mechanism for Kadomtsev {
+    const NAME: &'static str = "plastic-kadomtsev";
+    const KIND: &'static str = PLASTIC_LOSS;
+    const ABOUT: &'static str = "elastic-plastic contact of the EAP model (Kadomtsev; Kim & Dunn 2007, Eqs 29-34)";
+    const STAGE: Stage = Stage::Bulk;
+    const KEYS: &'static [Key] = &[Key::PlasticConstant, Key::DynamicStrengthFactor];
+
+    fn from_law(law: &Inputs) -> Result<Self, LawError> {
+        let pair = law.pair()?;
+        Ok(Self::new(pair.effective_modulus()?, pair.plastic_constant()?, pair.density()?))
+    }
+
+    #[inline(always)]
+    fn take<F: Fma>(&self, f: F, v: f64, size: &Size, account: &mut Account) {
+        let fraction = self.fraction_on(f, v, size);
+        account.losses.plastic += fraction;
+        account.bulk += fraction;
+    }
+
+    #[inline(always)]
+    fn yield_squared(&self, size: &Size) -> f64 {
+        Kadomtsev::yield_squared(self, size)
     }
 }
 
 /// e_pl² at s = v/V_y, for any s ≥ 0.
-#[inline(always)]
 pub fn universal(s: f64, beta: f64) -> f64 {
-    universal_of_square(s * s, beta)
+    universal_of_square(BEST, s * s, beta)
 }
 
 #[inline(always)]
-fn universal_of_square(s2: f64, beta: f64) -> f64 {
+fn universal_of_square<F: Fma>(f: F, s2: f64, beta: f64) -> f64 {
     let a = (1.0 - beta) / 4.0;
     let b = (1.0 + beta) / 6.0;
     let yielding = s2 > 1.0;
     // far above any impact the curve is followed no further (and s⁴ must not overflow)
     let s2 = if yielding { s2 } else { 1.0 }.min(1e200);
     // q(y) = a y⁴ + b y³ − target, target = a + b at yield
-    let target = 0.4f64.mul_add(s2 - 1.0, a + b);
+    let target = f.fma(0.4, s2 - 1.0, a + b);
     // a (y + h)⁴ with h = b/4a shares the two leading terms; the constant makes it exact at y = 1
     let h = b / (4.0 * a);
     let h1 = (1.0 + h) * (1.0 + h);
-    let mut y = ((0.4 * (s2 - 1.0)) / a + h1 * h1).sqrt().sqrt() - h;
-    let quartic = |y: f64| (a.mul_add(y, b) * (y * y)).mul_add(y, -target);
+    let mut y = math::sqrt(math::sqrt((0.4 * (s2 - 1.0)) / a + h1 * h1)) - h;
+    let quartic = |y: f64| f.fma(f.fma(a, y, b) * (y * y), y, -target);
     let mut inverse_slope = 0.0;
     for _ in 0..2 {
         // Halley's step on q, q′ = y²(4a y + 3b), q″ = y(12a y + 6b)
         let q = quartic(y);
-        let d = (4.0 * a).mul_add(y, 3.0 * b) * (y * y);
-        let dd = (12.0 * a).mul_add(y, 6.0 * b) * y;
-        inverse_slope = d / d.mul_add(d, -(0.5 * q) * dd);
-        y = (-q).mul_add(inverse_slope, y);
+        let d = f.fma(4.0 * a, y, 3.0 * b) * (y * y);
+        let dd = f.fma(12.0 * a, y, 6.0 * b) * y;
+        inverse_slope = d / f.fma(d, d, -(0.5 * q) * dd);
+        y = f.fma(-q, inverse_slope, y);
     }
     // what is left is 1e-13 at most: Newton's steps with the slope at hand
-    y = (-quartic(y)).mul_add(inverse_slope, y);
-    y = (-quartic(y)).mul_add(inverse_slope, y);
+    y = f.fma(-quartic(y), inverse_slope, y);
+    y = f.fma(-quartic(y), inverse_slope, y);
     if yielding { (y * y * y / s2).min(1.0) } else { 1.0 }
 }
+
+// e stays at or below 1 just above yield
+const _: () = assert!(BETA <= 0.6);
 
 #[cfg(test)]
 mod tests {

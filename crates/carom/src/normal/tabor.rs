@@ -22,7 +22,13 @@
 //! assert!((t.restitution(6.3) - 0.582).abs() < 5e-4);
 //! ```
 
-use crate::math;
+use super::Size;
+use super::inputs::Inputs;
+use super::mechanism::{Account, Mechanism, Stage};
+use super::plastic::PLASTIC_LOSS;
+use crate::error::LawError;
+use crate::math::{self, BEST, Fma};
+use crate::spec::Key;
 
 /// Tabor's plastic loss.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,8 +47,12 @@ impl Tabor {
     }
 
     /// e at approach speed `v` (m/s).
-    #[inline(always)]
     pub fn restitution(&self, v: f64) -> f64 {
+        self.restitution_on(BEST, v)
+    }
+
+    #[inline(always)]
+    fn restitution_on<F: Fma>(&self, f: F, v: f64) -> f64 {
         let s = v / self.yield_velocity;
         if s.is_nan() || s <= 1.0 {
             return 1.0;
@@ -53,11 +63,11 @@ impl Tabor {
         let inverse = 1.0 / beta;
         let s2 = s * s;
         // both terms alone bound the root from above
-        let mut u = s.min(math::pow(s2 / (1.0 - beta), beta));
+        let mut u = s.min(math::pow_on(f, s2 / (1.0 - beta), beta));
         for _ in 0..60 {
-            let power = (1.0 - beta) * math::pow(u, inverse);
-            let h = beta.mul_add(u * u, power - s2);
-            let slope = inverse.mul_add(power / u, 2.0 * beta * u);
+            let power = (1.0 - beta) * math::pow_on(f, u, inverse);
+            let h = f.fma(beta, u * u, power - s2);
+            let slope = f.fma(inverse, power / u, 2.0 * beta * u);
             let next = u - h / slope;
             let moved = (next - u).abs();
             u = next;
@@ -69,10 +79,40 @@ impl Tabor {
     }
 
     /// Fraction of the normal kinetic energy lost at approach speed `v` (m/s).
-    #[inline(always)]
     pub fn fraction(&self, v: f64) -> f64 {
-        let e = self.restitution(v);
+        self.fraction_on(BEST, v)
+    }
+
+    #[inline(always)]
+    fn fraction_on<F: Fma>(&self, f: F, v: f64) -> f64 {
+        let e = self.restitution_on(f, v);
         1.0 - e * e
+    }
+}
+
+impl Mechanism for Tabor {
+    const NAME: &'static str = "plastic-tabor";
+    const KIND: &'static str = PLASTIC_LOSS;
+    const ABOUT: &'static str = "indentation with work hardening, fitted (Tabor 1948; Kim & Dunn 2007, Eqs 41-43)";
+    const STAGE: Stage = Stage::Bulk;
+    const KEYS: &'static [Key] = &[Key::YieldVelocity, Key::MeyerIndex];
+
+    fn from_law(law: &Inputs) -> Result<Self, LawError> {
+        let yield_velocity = law.needed(Key::YieldVelocity)?;
+        let meyer_index = law.needed(Key::MeyerIndex)?;
+        Ok(Self { yield_velocity, meyer_index })
+    }
+
+    #[inline(always)]
+    fn take<F: Fma>(&self, f: F, v: f64, _: &Size, account: &mut Account) {
+        let fraction = self.fraction_on(f, v);
+        account.losses.plastic += fraction;
+        account.bulk += fraction;
+    }
+
+    #[inline(always)]
+    fn yield_squared(&self, _: &Size) -> f64 {
+        self.yield_velocity * self.yield_velocity
     }
 }
 

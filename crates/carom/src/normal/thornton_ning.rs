@@ -20,7 +20,13 @@
 //! ```
 
 use super::Size;
-use std::f64::consts::PI;
+use super::inputs::Inputs;
+use super::mechanism::{Account, Mechanism, Stage};
+use super::plastic::PLASTIC_LOSS;
+use crate::error::LawError;
+use crate::math::{self, BEST, Fma};
+use crate::spec::Key;
+use core::f64::consts::PI;
 
 /// p_y/σ when the law names no limiting pressure.
 pub const PRESSURE_OVER_STRENGTH: f64 = 1.6;
@@ -47,21 +53,58 @@ impl ThorntonNing {
         self.yield_squared * (size.kappa * size.kappa * size.kappa) / size.density_ratio
     }
 
-    /// Fraction of the normal kinetic energy lost at approach speed `v`.
-    #[inline(always)]
+    /// Fraction of the normal kinetic energy lost at approach speed `v` (m/s).
     pub fn fraction(&self, v: f64, size: &Size) -> f64 {
-        1.0 - restitution_squared(v * v / self.yield_squared(size))
+        self.fraction_on(BEST, v, size)
+    }
+
+    #[inline(always)]
+    fn fraction_on<F: Fma>(&self, f: F, v: f64, size: &Size) -> f64 {
+        1.0 - restitution_squared_on(f, v * v / self.yield_squared(size))
+    }
+}
+
+impl Mechanism for ThorntonNing {
+    const NAME: &'static str = "plastic-thornton-ning";
+    const KIND: &'static str = PLASTIC_LOSS;
+    const ABOUT: &'static str = "elastic, perfectly plastic spheres (Thornton & Ning 1998; Kim & Dunn 2007, Eq. 44)";
+    const STAGE: Stage = Stage::Bulk;
+    const KEYS: &'static [Key] = &[Key::LimitingPressure, Key::PlasticConstant, Key::DynamicStrengthFactor];
+
+    fn from_law(law: &Inputs) -> Result<Self, LawError> {
+        let pair = law.pair()?;
+        let pressure = match law.number(Key::LimitingPressure) {
+            Some(given) => given,
+            None => 2.0 * pair.plastic_constant()? * PRESSURE_OVER_STRENGTH,
+        };
+        Ok(Self::new(pair.effective_modulus()?, pressure, pair.density()?))
+    }
+
+    #[inline(always)]
+    fn take<F: Fma>(&self, f: F, v: f64, size: &Size, account: &mut Account) {
+        let fraction = self.fraction_on(f, v, size);
+        account.losses.plastic += fraction;
+        account.bulk += fraction;
+    }
+
+    #[inline(always)]
+    fn yield_squared(&self, size: &Size) -> f64 {
+        ThorntonNing::yield_squared(self, size)
     }
 }
 
 /// e² at s² = (v/V_y)².
-#[inline(always)]
 pub fn restitution_squared(s2: f64) -> f64 {
+    restitution_squared_on(BEST, s2)
+}
+
+#[inline(always)]
+fn restitution_squared_on<F: Fma>(f: F, s2: f64) -> f64 {
     let yielding = s2 > 1.0;
     let q2 = if yielding { 1.0 / s2 } else { 1.0 };
-    let q = q2.sqrt();
-    let tail = q / 2.0f64.mul_add(q2.mul_add(-0.2, 1.2).sqrt(), q);
-    let e2 = SCALE * q2.mul_add(-1.0 / 6.0, 1.0) * tail.sqrt();
+    let q = math::sqrt(q2);
+    let tail = q / f.fma(2.0, math::sqrt(f.fma(q2, -0.2, 1.2)), q);
+    let e2 = SCALE * f.fma(q2, -1.0 / 6.0, 1.0) * math::sqrt(tail);
     if yielding { e2.min(1.0) } else { 1.0 }
 }
 

@@ -1,9 +1,9 @@
 //! Time histories of a resolved contact.
 
 use super::Resolved;
-use crate::math;
+use crate::math::{self, BEST};
 use crate::normal::Size;
-use std::f64::consts::PI;
+use core::f64::consts::PI;
 
 /// Scales that turn the dimensionless contact into SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,7 +43,7 @@ impl Resolved {
         friction: f64,
         points: usize,
     ) -> Vec<Moment> {
-        let contact = self.contact(v, size);
+        let contact = self.contact(BEST, v, size);
         let mass = 4.0 / 3.0 * PI * scales.density * size.density_ratio * size.radius * size.radius * size.radius;
         let r = size.radius * size.kappa;
         let length = math::pow(mass * v * v / (r.sqrt() * scales.stiffness), 0.4);
@@ -51,7 +51,7 @@ impl Resolved {
         // the steps' length bounds their number from below: s runs up to about 1 and back at a speed of at most 1
         let longest = 2.0 / points.clamp(4, 100_000) as f64;
         let mut moments = Vec::new();
-        contact.solve(longest, &mut |state, adhesive| {
+        contact.solve(BEST, longest, &mut |state, adhesive| {
             let s = state.s.max(0.0);
             let hertz = s * s * s;
             let pull = if adhesive { contact.adhesion * s } else { 0.0 };

@@ -1,6 +1,7 @@
 //! The dimensionless contact, followed in σ (x = s², dt = 2s dσ): s and U = dx/dt, and the integrals that ride along.
 
 use super::coefficients::{A, B, E3, E5, STAGES};
+use crate::math::{self, Fma};
 
 /// Relative tolerance of a step.
 const TOLERANCE: f64 = 2e-9;
@@ -64,17 +65,17 @@ struct Step {
 impl Contact {
     /// dU/dσ = 2s²(−s²(1 + C_H U) + A(1 − C_A U)).
     #[inline(always)]
-    fn force(&self, s: f64, u: f64, a: f64) -> f64 {
+    fn force<F: Fma>(&self, f: F, s: f64, u: f64, a: f64) -> f64 {
         let x = s * s;
-        let hertz = x * self.hertz_damping.mul_add(u, 1.0);
-        let adhesive = a * (-self.adhesion_damping).mul_add(u, 1.0);
+        let hertz = x * f.fma(self.hertz_damping, u, 1.0);
+        let adhesive = a * f.fma(-self.adhesion_damping, u, 1.0);
         2.0 * x * (adhesive - hertz)
     }
 
     /// Rates of (s, U) and of σ itself per unit of the running variable.
     #[inline(always)]
-    fn rates(&self, s: f64, u: f64, a: f64, along: Along) -> (f64, f64, f64) {
-        let force = self.force(s, u, a);
+    fn rates<F: Fma>(&self, f: F, s: f64, u: f64, a: f64, along: Along) -> (f64, f64, f64) {
+        let force = self.force(f, s, u, a);
         match along {
             Along::Sigma => (u, force, 1.0),
             Along::Speed => (u / force, 1.0, 1.0 / force),
@@ -83,46 +84,46 @@ impl Contact {
     }
 
     #[inline(always)]
-    fn step(&self, from: &State, h: f64, a: f64, along: Along) -> Step {
+    fn step<F: Fma>(&self, f: F, from: &State, h: f64, a: f64, along: Along) -> Step {
         let (mut ks, mut ku) = ([0.0f64; STAGES], [0.0f64; STAGES]);
         let (mut ss, mut us, mut pace) = ([0.0f64; STAGES], [0.0f64; STAGES], [0.0f64; STAGES]);
         for i in 0..STAGES {
             let (mut ds, mut du) = (0.0f64, 0.0f64);
             for j in 0..i {
                 if A[i][j] != 0.0 {
-                    ds = A[i][j].mul_add(ks[j], ds);
-                    du = A[i][j].mul_add(ku[j], du);
+                    ds = f.fma(A[i][j], ks[j], ds);
+                    du = f.fma(A[i][j], ku[j], du);
                 }
             }
-            (ss[i], us[i]) = (h.mul_add(ds, from.s), h.mul_add(du, from.u));
-            (ks[i], ku[i], pace[i]) = self.rates(ss[i], us[i], a, along);
+            (ss[i], us[i]) = (f.fma(h, ds, from.s), f.fma(h, du, from.u));
+            (ks[i], ku[i], pace[i]) = self.rates(f, ss[i], us[i], a, along);
         }
-        let sum = |w: &[f64; STAGES], k: &[f64; STAGES]| (0..STAGES).fold(0.0, |t: f64, i| w[i].mul_add(k[i], t));
-        let to_s = h.mul_add(sum(&B, &ks), from.s);
-        let to_u = h.mul_add(sum(&B, &ku), from.u);
+        let sum = |w: &[f64; STAGES], k: &[f64; STAGES]| (0..STAGES).fold(0.0, |t: f64, i| f.fma(w[i], k[i], t));
+        let to_s = f.fma(h, sum(&B, &ks), from.s);
+        let to_u = f.fma(h, sum(&B, &ku), from.u);
         let scale_s = TOLERANCE * from.s.abs().max(to_s.abs()).max(1.0);
         let scale_u = TOLERANCE * from.u.abs().max(to_u.abs()).max(1.0);
         let square = |x: f64, scale: f64| (x / scale) * (x / scale);
         let five = square(sum(&E5, &ks), scale_s) + square(sum(&E5, &ku), scale_u);
         let three = square(sum(&E3, &ks), scale_s) + square(sum(&E3, &ku), scale_u);
-        let spread = 0.01f64.mul_add(three, five);
+        let spread = f.fma(0.01, three, five);
         // a spread that is not a number must not pass for none
-        let error = if spread == 0.0 { 0.0 } else { h.abs() * five / (2.0 * spread).sqrt() };
+        let error = if spread == 0.0 { 0.0 } else { h.abs() * five / math::sqrt(2.0 * spread) };
         let mut rides = from.rides;
         for i in 0..STAGES {
             let weight = h * B[i] * 2.0 * pace[i];
             let (x, square_u) = (ss[i] * ss[i], us[i] * us[i]);
-            rides.time = weight.mul_add(ss[i], rides.time);
-            rides.impulse = weight.mul_add(x * x, rides.impulse);
-            rides.hertz_work = (weight * self.hertz_damping).mul_add(x * x * square_u, rides.hertz_work);
-            rides.adhesion_work = (weight * a * self.adhesion_damping).mul_add(x * square_u, rides.adhesion_work);
+            rides.time = f.fma(weight, ss[i], rides.time);
+            rides.impulse = f.fma(weight, x * x, rides.impulse);
+            rides.hertz_work = f.fma(weight * self.hertz_damping, x * x * square_u, rides.hertz_work);
+            rides.adhesion_work = f.fma(weight * a * self.adhesion_damping, x * square_u, rides.adhesion_work);
         }
         Step { to: State { s: to_s, u: to_u, rides }, error }
     }
 
     /// Follows the contact to its end; `watch` sees every accepted moment and whether adhesion acts there.
     #[inline(always)]
-    pub(super) fn solve(&self, longest: f64, watch: &mut impl FnMut(&State, bool)) -> Motion {
+    pub(super) fn solve<F: Fma>(&self, f: F, longest: f64, watch: &mut impl FnMut(&State, bool)) -> Motion {
         let mut state = State { s: 0.0, u: 1.0, rides: Rides::default() };
         let mut motion = Motion { captured: true, ..Motion::default() };
         let mut separating = false;
@@ -130,7 +131,7 @@ impl Contact {
         watch(&state, self.reversible);
         for _ in 0..MOST_STEPS {
             let a = if self.reversible || separating { self.adhesion } else { 0.0 };
-            let mut step = self.step(&state, h, a, Along::Sigma);
+            let mut step = self.step(f, &state, h, a, Along::Sigma);
             let wanted = h * growth(step.error);
             if refused(step.error) {
                 h = wanted;
@@ -140,7 +141,7 @@ impl Contact {
             let leaves = separating && step.to.s <= 0.0;
             if turns || leaves {
                 let (along, length) = if turns { (Along::Speed, -state.u) } else { (Along::Depth, -state.s) };
-                let landing = self.step(&state, length, a, along);
+                let landing = self.step(f, &state, length, a, along);
                 if !refused(landing.error) {
                     step = landing;
                 } else if h > 1e-9 {
@@ -190,5 +191,5 @@ fn growth(error: f64) -> f64 {
     if error.is_nan() || error > 1e30 {
         return 0.1;
     }
-    (0.85 / error.max(1e-12).sqrt().sqrt().sqrt()).clamp(0.2, 5.0)
+    (0.85 / math::sqrt(math::sqrt(math::sqrt(error.max(1e-12))))).clamp(0.2, 5.0)
 }

@@ -1,4 +1,5 @@
 use super::*;
+use crate::math::BEST;
 
 fn steel_on_silicon(damping: Damping, mode: AdhesionMode) -> Resolved {
     // K and w exactly as the materials give them: w = 2√(1.62 · 1.42) = 3.033..., the reference values use 3.03
@@ -33,7 +34,7 @@ fn undamped_separation_only_is_the_algebraic_form_and_the_speed_agrees_with_the_
         let psi = law.work.fraction(v, &size);
         let e = (1.0 - psi).sqrt();
         assert!((law.restitution(v, &size) - e).abs() < 2e-10 / e, "{v}");
-        let motion = law.contact(v, &size).solve(f64::INFINITY, &mut |_, _| ());
+        let motion = law.contact(BEST, v, &size).solve(BEST, f64::INFINITY, &mut |_, _| ());
         assert!((motion.end.u.powi(2) - e * e).abs() < 1e-9, "{v}: {} {e}", motion.end.u);
     }
     assert_eq!(law.restitution(0.0257875, &size), 0.0);
@@ -47,7 +48,7 @@ fn energy_balances_with_damping() {
             let law = steel_on_silicon(Damping { adhesion: ca, hertz: ch }, mode);
             for v in [0.1, 1.0, 10.0] {
                 let size = Size::flat(35e-6);
-                let motion = law.contact(v, &size).solve(f64::INFINITY, &mut |_, _| ());
+                let motion = law.contact(BEST, v, &size).solve(BEST, f64::INFINITY, &mut |_, _| ());
                 let e = law.restitution(v, &size);
                 assert!(motion.captured == (e == 0.0));
                 if !motion.captured {
@@ -65,8 +66,8 @@ fn undamped_capture_is_at_five_thirds_of_the_papers_length() {
     let size = Size::flat(35e-6);
     let v = law.window(&size).expect("rebounds").capture_velocity;
     assert!((v / 0.0257875508304544 - 1.0).abs() < 1e-9, "{v}");
-    let contact = law.contact(v, &size);
-    let deepest = contact.solve(f64::INFINITY, &mut |_, _| ()).deepest;
+    let contact = law.contact(BEST, v, &size);
+    let deepest = contact.solve(BEST, f64::INFINITY, &mut |_, _| ()).deepest;
     assert!((deepest * deepest / contact.adhesion - 5.0 / 3.0).abs() < 1e-8);
 }
 

@@ -1,7 +1,7 @@
 //! The one way into a law: typed values in, a law that answers out. The text form compiles through it.
 
 use super::keys::{LawBuilder, LawSpec};
-use super::uses::{ALWAYS, Choice, INSTEAD_OF};
+use super::uses::{ALWAYS, Choice, IDLE_BESIDE, ONE_OF};
 use super::{CurveSpec, Key, NormalKind, NormalSpec, TangentialKind};
 use crate::error::{LawError, Problem};
 use crate::material::Library;
@@ -9,6 +9,7 @@ use crate::normal::Loss;
 use crate::normal::empirical::Curve;
 use crate::pair::{Overrides, Pair};
 use crate::roughness::RoughnessModel;
+use crate::tangential::Tangential;
 use crate::wall::WallLaw;
 
 impl WallLaw {
@@ -27,6 +28,18 @@ impl WallLaw {
     /// ```
     pub fn builder() -> LawBuilder {
         LawBuilder::default()
+    }
+
+    /// Asks for friction, for a caller whose impacts slip along the wall: a law without it answers only those that do not
+    /// ([`crate::ImpactError::FrictionNotGiven`]).
+    ///
+    /// # Errors
+    /// The law reads a friction coefficient and has none.
+    pub fn require_friction(&self) -> Result<(), LawError> {
+        match self.tangential() {
+            Tangential::NotGiven => Err(Problem::MissingKey { key: Key::Friction, reader: None }.into()),
+            _ => Ok(()),
+        }
     }
 }
 
@@ -79,7 +92,7 @@ impl LawBuilder {
     }
 
     /// The number of a key that a choice needs.
-    pub(super) fn needed(&self, key: Key, reader: Choice) -> Result<f64, LawError> {
+    pub(crate) fn needed(&self, key: Key, reader: Choice) -> Result<f64, LawError> {
         self.number(key).ok_or_else(|| Problem::MissingKey { key, reader: Some(reader) }.into())
     }
 
@@ -130,10 +143,12 @@ impl LawBuilder {
                 return Err(Problem::IdleKey { key, beside, readers }.into());
             }
         }
-        for (other, given) in INSTEAD_OF {
-            if self.is_given(other) && self.is_given(given) {
-                return Err(Problem::OneOf { given, other }.into());
-            }
+        let both = |(one, other): &(Key, Key)| self.is_given(*one) && self.is_given(*other);
+        if let Some((other, given)) = ONE_OF.into_iter().find(both) {
+            return Err(Problem::OneOf { given, other }.into());
+        }
+        if let Some((given, key)) = IDLE_BESIDE.into_iter().find(both) {
+            return Err(Problem::IdleKey { key, beside: Some(Choice::Given(given)), readers: Vec::new() }.into());
         }
         Ok(())
     }
@@ -145,6 +160,7 @@ impl LawBuilder {
             stiffness: self.stiffness,
             plastic_constant: self.plastic_constant,
             interfacial_parameter: self.interfacial_parameter,
+            dynamic_strength_factor: self.dynamic_strength_factor,
         };
         let nothing = self.sphere.is_none() && self.surface.is_none() && overrides == Overrides::default();
         (!nothing).then(|| Pair::of(self.sphere.as_ref(), self.surface.as_ref(), &overrides))

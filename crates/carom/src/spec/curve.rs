@@ -136,8 +136,7 @@ pub(super) fn check(key: Key, curve: &Curve) -> Result<(), LawError> {
 
 /// Curves that come with carom: name, file.
 #[cfg(feature = "toml")]
-const BUILTIN: &[(&str, &str)] =
-    &[("grant-tabakoff", include_str!("../../../../data/curves/grant-tabakoff-1975.toml"))];
+const BUILTIN: &[(&str, &str)] = &[("grant-tabakoff", include_str!("../../data/curves/grant-tabakoff-1975.toml"))];
 #[cfg(not(feature = "toml"))]
 const BUILTIN: &[(&str, &str)] = &[];
 

@@ -17,7 +17,7 @@
 //! Which laws read a key is declared in [`crate::spec::uses`].
 
 use super::range::Range;
-use super::uses::{Choice, INSTEAD_OF};
+use super::uses::{Choice, IDLE_BESIDE, ONE_OF};
 use super::values::{At, CurvatureRadius};
 use super::written::{Built, Written};
 use super::{CurveSpec, NormalSpec, TangentialKind};
@@ -27,7 +27,7 @@ use crate::normal::empirical::Curve;
 use crate::resolved::AdhesionMode;
 use crate::roughness::RoughnessModel;
 use crate::scatter;
-use crate::units::{Angle, InverseSpeed, Length, Number, Pressure, Speed, SurfaceEnergy};
+use crate::units::{Angle, Energy, InverseSpeed, Length, Number, Pressure, Speed, SurfaceEnergy};
 
 /// What the registry says of a key.
 #[derive(Clone, Copy, Debug)]
@@ -357,6 +357,26 @@ law_keys! {
         symbol: "k", noun: "a plastic constant", example: "145 MPa", group: INSTEAD, range: POSITIVE_PRESSURE, draw: Some(15),
         search: Some(Search { start: 100e6, scale: 1e6, grid: TENTHS_TO_TEN, relative: true, least: 1.0 }),
     }
+    /// factor on the plastic constant for strain rate and size: an impact is faster, and its contact smaller, than a test of strength
+    DynamicStrengthFactor dynamic_strength_factor: Number => f64 {
+        noun: "a dynamic strength factor", example: "2", default: "1", group: INSTEAD,
+        range: Range::above(0.0, "a positive number, 1 or a few"), draw: Some(19),
+    }
+    /// depth of the adhesion well on the way in
+    WellDepth well_depth: Energy => f64 {
+        symbol: "E_in", noun: "the depth of the adhesion well, or a Hamaker constant", example: "1e-15 J", group: NORMAL,
+        range: Range::from(0.0, "zero or more is wanted, in J"), draw: Some(16),
+    }
+    /// depth of the adhesion well on the way out, not below that on the way in
+    WellDepthOut well_depth_out: Energy => f64 {
+        symbol: "E_out", noun: "the depth of the adhesion well on the way out", example: "2e-15 J",
+        default: "well_depth", group: NORMAL, range: Range::from(0.0, "zero or more is wanted, in J"), draw: Some(17),
+    }
+    /// Hamaker constant, from which the well's depth follows with the equilibrium spacing
+    HamakerConstant hamaker_constant: Energy => f64 {
+        symbol: "A", noun: "a Hamaker constant", example: "1e-19 J", group: NORMAL,
+        range: Range::within(0.0, 1e-17, "it lies between 0 and 1e-17 J; 50 zJ to 500 zJ are usual"), draw: Some(18),
+    }
 }
 
 const ROUGHNESS_RIGHT: &str = "C_R knows asperities of nanometres, finer than the contact, up to 1 um: not the Ra of a machined surface, whose waviness is given as roughness_angle";
@@ -424,14 +444,8 @@ impl core::str::FromStr for Key {
 impl LawSpec {
     /// Takes out what `key` would take the place of, such as the roughness where C_R is given.
     pub fn make_room(&mut self, key: Key) {
-        for (one, other) in INSTEAD_OF {
-            let put_aside = if key == one {
-                other
-            } else if key == other {
-                one
-            } else {
-                continue;
-            };
+        let both_ways = ONE_OF.into_iter().flat_map(|(one, other)| [(one, other), (other, one)]);
+        for (_, put_aside) in both_ways.chain(IDLE_BESIDE).filter(|(given, _)| *given == key) {
             self.remove(put_aside);
             for idle in Key::ALL.iter().copied().filter(|k| Choice::only_beside(*k, put_aside)) {
                 self.remove(idle);

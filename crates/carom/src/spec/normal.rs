@@ -16,6 +16,8 @@ pub enum NormalKind {
     ThorntonNing,
     /// `tabor`: Tabor's plastic loss alone.
     Tabor,
+    /// `dahneke`: a given restitution with an adhesion well.
+    Dahneke,
     /// `constant`
     Constant,
     /// `by-angle`
@@ -26,15 +28,15 @@ pub enum NormalKind {
 
 values::names! {
     NormalKind, "normal law",
-    "ea" => Ea, "eap" => Eap, "thornton-ning" => ThorntonNing, "tabor" => Tabor,
+    "ea" => Ea, "eap" => Eap, "thornton-ning" => ThorntonNing, "tabor" => Tabor, "dahneke" => Dahneke,
     "constant" => Constant, "by-angle" => ByAngle, "resolved" => Resolved,
 }
 
 impl core::str::FromStr for Loss {
     type Err = LawError;
     fn from_str(text: &str) -> Result<Self, LawError> {
-        let names = Self::ALL.map(Self::name);
-        Self::ALL.into_iter().find(|l| l.name() == text).ok_or_else(|| values::unknown_name("loss", text, &names))
+        let names: Vec<&str> = Self::ALL.iter().map(|l| l.name()).collect();
+        Self::ALL.iter().copied().find(|l| l.name() == text).ok_or_else(|| values::unknown_name("loss", text, &names))
     }
 }
 

@@ -25,31 +25,13 @@ pub enum Choice {
     Given(Key),
 }
 
-/// Keys of the adhesion in a contact.
-const ADHESION: [Key; 6] = [
-    Key::WorkOfAdhesion,
-    Key::InterfacialParameter,
-    Key::RoughnessFactor,
-    Key::Roughness,
-    Key::EquilibriumSpacing,
-    Key::Stiffness,
-];
 /// The contact's size, for `large-contact`.
 const CONTACT: [Key; 2] = [Key::Stiffness, Key::SurfaceCurvature];
 
 impl Loss {
     /// The keys it reads, those of its materials' constants among them.
     pub fn keys(self) -> Vec<Key> {
-        let own: &[&[Key]] = match self {
-            Self::AdhesionWork => &[&ADHESION],
-            Self::AdhesionDamping => &[&ADHESION, &[Key::AdhesionDamping]],
-            Self::HertzDamping => &[&[Key::HertzDamping]],
-            Self::AdhesionJkr => &[&[Key::WorkOfAdhesion, Key::InterfacialParameter, Key::EquilibriumSpacing]],
-            Self::PlasticKadomtsev | Self::PlasticBons => &[&[Key::PlasticConstant]],
-            Self::PlasticThorntonNing => &[&[Key::LimitingPressure, Key::PlasticConstant]],
-            Self::PlasticTabor => &[&[Key::YieldVelocity, Key::MeyerIndex]],
-        };
-        own.iter().copied().chain([&CONTACT[..]]).flatten().copied().collect()
+        self.own_keys().iter().chain(&CONTACT).copied().collect()
     }
 }
 
@@ -62,20 +44,23 @@ impl NormalKind {
             Self::Eap => (&[Loss::PlasticKadomtsev, Loss::AdhesionWork], DAMPING),
             Self::ThorntonNing => (&[Loss::PlasticThorntonNing, Loss::AdhesionJkr], &[]),
             Self::Tabor => (&[Loss::PlasticTabor], &[]),
+            Self::Dahneke => (&[Loss::GivenRestitution, Loss::AdhesionWell], &[]),
             Self::Constant | Self::ByAngle | Self::Resolved => (&[], &[]),
         }
     }
 
     /// The keys it reads.
     pub fn keys(self) -> Vec<Key> {
-        let own: &[&[Key]] = match self {
-            Self::Constant | Self::ByAngle => &[&[Key::Restitution]],
-            Self::Resolved => &[&ADHESION, &CONTACT, &[Key::Adhesion, Key::AdhesionDamping, Key::HertzDamping]],
-            _ => &[],
-        };
         let (always, given) = self.losses();
-        let own = own.iter().copied().flatten().copied();
-        own.chain(always.iter().chain(given).flat_map(|l| l.keys())).collect()
+        let of_losses = always.iter().chain(given).flat_map(|l| l.keys());
+        match self {
+            Self::Constant | Self::ByAngle => vec![Key::Restitution],
+            Self::Resolved => {
+                let work = [Loss::AdhesionWork, Loss::AdhesionDamping, Loss::HertzDamping];
+                work.into_iter().flat_map(Loss::keys).chain([Key::Adhesion]).collect()
+            }
+            _ => of_losses.collect(),
+        }
     }
 }
 
@@ -111,7 +96,7 @@ impl Choice {
     /// Everything that reads keys, the laws by name before single losses.
     pub fn all() -> impl Iterator<Item = Self> {
         let normal = NormalKind::ALL.iter().map(|k| Self::Normal(*k));
-        let losses = Loss::ALL.into_iter().map(Self::Loss);
+        let losses = Loss::ALL.iter().copied().map(Self::Loss);
         let tangential = TangentialKind::ALL.iter().map(|k| Self::Tangential(*k));
         let models = RoughnessModel::ALL.iter().map(|m| Self::RoughnessModel(*m));
         normal.chain(losses).chain(tangential).chain(models).chain([Self::Given(Key::Roughness)])
@@ -185,9 +170,13 @@ impl Key {
 /// Keys that every law reads: its parts, its materials, and the facets of a wall that scatters.
 pub(crate) const ALWAYS: [Key; 5] = [Key::Sphere, Key::Surface, Key::Normal, Key::Tangential, Key::RoughnessAngle];
 
+/// Each says what the other says.
+pub(crate) const ONE_OF: [(Key, Key); 2] =
+    [(Key::RoughnessFactor, Key::Roughness), (Key::WellDepth, Key::HamakerConstant)];
+
 /// Where the first key is given, a law reads it in place of the second.
-pub(crate) const INSTEAD_OF: [(Key, Key); 3] = [
-    (Key::RoughnessFactor, Key::Roughness),
+pub(crate) const IDLE_BESIDE: [(Key, Key); 3] = [
     (Key::WorkOfAdhesion, Key::InterfacialParameter),
     (Key::LimitingPressure, Key::PlasticConstant),
+    (Key::LimitingPressure, Key::DynamicStrengthFactor),
 ];

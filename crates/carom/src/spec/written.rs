@@ -51,7 +51,14 @@ impl Built for f64 {
 }
 impl Built for Material {}
 impl Built for NormalSpec {}
-impl Built for Curve {}
+impl Built for Curve {
+    fn number(&self) -> Option<f64> {
+        match self {
+            Self::Constant(value) => Some(*value),
+            Self::ByAngle(_) => None,
+        }
+    }
+}
 
 impl<Q: Quantity> Written for Q {
     type Built = f64;

@@ -59,8 +59,7 @@
 pub mod resolved;
 mod table;
 
-use super::{Contact, FrictionLaw};
-use crate::wall::NormalResponse;
+use crate::math::{BEST, Fma};
 use table::{IN_KAPPA, IN_RESTITUTION, IN_SLIP, TABLE};
 
 /// Least and greatest κ that Poisson's ratios from ½ to −1 allow.
@@ -68,48 +67,33 @@ pub const STIFFNESS_RATIOS: [f64; 2] = [2.0 / 3.0, 4.0 / 3.0];
 
 /// Scaled slip ψ_m from which the closed law slides throughout.
 pub fn full_slip(stiffness_ratio: f64, restitution: f64) -> f64 {
-    edge(1.0 / stiffness_ratio, restitution)
+    edge(BEST, 1.0 / stiffness_ratio, restitution)
 }
 
 #[inline(always)]
-fn edge(compliance_ratio: f64, e: f64) -> f64 {
-    (e * (e - 2.0)).mul_add(compliance_ratio, 3.5 * (1.0 + e))
+fn edge<F: Fma>(f: F, compliance_ratio: f64, e: f64) -> f64 {
+    f.fma(e * (e - 2.0), compliance_ratio, 3.5 * (1.0 + e))
 }
 
-/// The closed law of one pair.
-#[derive(Clone, Debug, PartialEq)]
-pub struct MicroSlip {
+/// κ taken into [`STIFFNESS_RATIOS`].
+fn within(stiffness_ratio: f64) -> f64 {
+    let [least, greatest] = STIFFNESS_RATIOS;
+    stiffness_ratio.max(least).min(greatest)
+}
+
+/// The numbers of the closed law of one pair; the [`Shape`] of its curve stands beside.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PartialSlip {
     friction: f64,
     /// 1/κ.
     compliance_ratio: f64,
-    /// ρ as powers of 2e − 1 (rows) and 2u − 1.
-    shape: [[f64; IN_SLIP]; IN_RESTITUTION],
 }
 
-impl MicroSlip {
+impl PartialSlip {
     /// From the friction coefficient f and the stiffness ratio κ ([`crate::pair::Pair::stiffness_ratio`]), taken into
     /// [`STIFFNESS_RATIOS`].
     pub fn new(friction: f64, stiffness_ratio: f64) -> Self {
-        let [least, greatest] = STIFFNESS_RATIOS;
-        let kappa = stiffness_ratio.max(least).min(greatest);
-        let at = chebyshev::<IN_KAPPA>(3.0 * kappa - 3.0);
-        let mut series = [[0.0; IN_SLIP]; IN_RESTITUTION];
-        for (of_kappa, factor) in TABLE.iter().zip(at) {
-            for (row, given) in series.iter_mut().zip(of_kappa) {
-                for (c, g) in row.iter_mut().zip(given) {
-                    *c += factor * g;
-                }
-            }
-        }
-        let rows = series.map(|row| powers(&row));
-        let mut shape = [[0.0; IN_SLIP]; IN_RESTITUTION];
-        for i in 0..IN_SLIP {
-            let column = powers(&std::array::from_fn::<_, IN_RESTITUTION, _>(|j| rows[j][i]));
-            for (row, c) in shape.iter_mut().zip(column) {
-                row[i] = c;
-            }
-        }
-        Self { friction, compliance_ratio: 1.0 / kappa, shape }
+        Self { friction, compliance_ratio: 1.0 / within(stiffness_ratio) }
     }
 
     /// f.
@@ -122,56 +106,93 @@ impl MicroSlip {
         1.0 / self.compliance_ratio
     }
 
-    /// π = P/(f v_n) at scaled slip ψ ≥ 0 and restitution e.
-    pub fn scaled_impulse(&self, slip: f64, restitution: f64) -> f64 {
-        let u = (slip / edge(self.compliance_ratio, restitution)).min(1.0);
-        (1.0 + restitution) * self.fraction(u, restitution)
-    }
-
     /// Slip (m/s) from which it slides throughout, when the impulse bound is `cap` = f(1 + e)v_n.
     #[inline(always)]
-    pub(crate) fn sliding_slip(&self, cap: f64, e: f64) -> f64 {
-        cap * (edge(self.compliance_ratio, e) / (1.0 + e))
+    pub(crate) fn sliding_slip<F: Fma>(&self, f: F, cap: f64, e: f64) -> f64 {
+        cap * (edge(f, self.compliance_ratio, e) / (1.0 + e))
+    }
+}
+
+/// ρ(u, e) of one κ, as powers of 2e − 1 (rows) and 2u − 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shape([[f64; IN_SLIP]; IN_RESTITUTION]);
+
+impl Shape {
+    /// ρ = 0, for laws that have no micro-slip.
+    pub(crate) const NONE: Self = Self([[0.0; IN_SLIP]; IN_RESTITUTION]);
+
+    /// Of a stiffness ratio κ, taken into [`STIFFNESS_RATIOS`].
+    pub fn new(stiffness_ratio: f64) -> Self {
+        let at = chebyshev::<IN_KAPPA>(3.0 * within(stiffness_ratio) - 3.0);
+        let mut series = [[0.0; IN_SLIP]; IN_RESTITUTION];
+        for (of_kappa, factor) in TABLE.iter().zip(at) {
+            for (row, given) in series.iter_mut().zip(of_kappa) {
+                for (c, g) in row.iter_mut().zip(given) {
+                    *c += factor * g;
+                }
+            }
+        }
+        let rows = series.map(|row| powers(&row));
+        let mut shape = [[0.0; IN_SLIP]; IN_RESTITUTION];
+        for i in 0..IN_SLIP {
+            let column = powers(&core::array::from_fn::<_, IN_RESTITUTION, _>(|j| rows[j][i]));
+            for (row, c) in shape.iter_mut().zip(column) {
+                row[i] = c;
+            }
+        }
+        Self(shape)
     }
 
     /// P over f(1 + e)v_n at u = ψ/ψ_m ≤ 1.
     #[inline(always)]
-    fn fraction(&self, u: f64, e: f64) -> f64 {
-        let (x, y) = (2.0f64.mul_add(u, -1.0), 2.0f64.mul_add(e, -1.0));
-        let [s0, s1, s2, s3] = &self.shape;
+    pub(crate) fn fraction<F: Fma>(&self, f: F, u: f64, e: f64) -> f64 {
+        let (x, y) = (f.fma(2.0, u, -1.0), f.fma(2.0, e, -1.0));
+        let [s0, s1, s2, s3] = &self.0;
         let mut c = [0.0; IN_SLIP];
         for i in 0..IN_SLIP {
-            c[i] = y.mul_add(y.mul_add(y.mul_add(s3[i], s2[i]), s1[i]), s0[i]);
+            c[i] = f.fma(y, f.fma(y, f.fma(y, s3[i], s2[i]), s1[i]), s0[i]);
         }
         // in halves: a short chain of dependent operations
         let x2 = x * x;
         let x4 = x2 * x2;
-        halve::<8>(&mut c, x4 * x4);
-        halve::<4>(&mut c, x4);
-        halve::<2>(&mut c, x2);
-        let q = (u * (1.0 - u)).mul_add(x.mul_add(c[1], c[0]), u);
+        halve::<_, 8>(f, &mut c, x4 * x4);
+        halve::<_, 4>(f, &mut c, x4);
+        halve::<_, 2>(f, &mut c, x2);
+        let q = f.fma(u * (1.0 - u), f.fma(x, c[1], c[0]), u);
         if q < 1.0 { q } else { 1.0 }
     }
 }
 
-impl FrictionLaw for MicroSlip {
-    const HELD: Contact = Contact::MicroSlip;
+/// The closed law of one pair, with the shape of its curve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MicroSlip {
+    slip: PartialSlip,
+    shape: Shape,
+}
 
-    #[inline(always)]
-    fn impulse(&self, slip: f64, normal_impulse: f64, response: &NormalResponse) -> (f64, bool) {
-        let cap = self.friction * response.friction_share * normal_impulse;
-        let u = slip / self.sliding_slip(cap, response.e);
-        // no friction gives no number where there is no slip either
-        let u = if u < 1.0 { u } else { 1.0 };
-        (cap * self.fraction(u, response.e), u >= 1.0)
+impl MicroSlip {
+    /// From the friction coefficient f and the stiffness ratio κ, taken into [`STIFFNESS_RATIOS`].
+    pub fn new(friction: f64, stiffness_ratio: f64) -> Self {
+        Self { slip: PartialSlip::new(friction, stiffness_ratio), shape: Shape::new(stiffness_ratio) }
+    }
+
+    /// κ.
+    pub fn stiffness_ratio(&self) -> f64 {
+        self.slip.stiffness_ratio()
+    }
+
+    /// π = P/(f v_n) at scaled slip ψ ≥ 0 and restitution e.
+    pub fn scaled_impulse(&self, slip: f64, restitution: f64) -> f64 {
+        let u = (slip / edge(BEST, self.slip.compliance_ratio, restitution)).min(1.0);
+        (1.0 + restitution) * self.shape.fraction(BEST, u, restitution)
     }
 }
 
 /// Σ cᵢxⁱ over 2N terms as a sum over N, given x^N.
 #[inline(always)]
-fn halve<const N: usize>(c: &mut [f64; IN_SLIP], power: f64) {
+fn halve<F: Fma, const N: usize>(f: F, c: &mut [f64; IN_SLIP], power: f64) {
     for i in 0..N {
-        c[i] = power.mul_add(c[i + N], c[i]);
+        c[i] = f.fma(power, c[i + N], c[i]);
     }
 }
 

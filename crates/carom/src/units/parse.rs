@@ -77,6 +77,9 @@ const UNITS: &[(&str, f64, i32, Dimension, bool)] = &[
 ];
 
 const PREFIXES: &[(&str, i32)] = &[
+    ("z", -21),
+    ("a", -18),
+    ("f", -15),
     ("p", -12),
     ("n", -9),
     ("u", -6),

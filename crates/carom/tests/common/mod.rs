@@ -9,13 +9,12 @@ use carom::material::Library;
 use carom::{Impact, Outcome, Vec3, WallLaw};
 use std::sync::LazyLock;
 
-static LIBRARY: LazyLock<Library> = LazyLock::new(Library::builtin);
 static ALL: LazyLock<Vec<(String, WallLaw)>> = LazyLock::new(combine);
 
 /// Compiles a law, with the message of what is wrong if it fails.
 pub fn law(text: &str) -> WallLaw {
     let spec = carom::spec::parse_law(text).unwrap_or_else(|e| panic!("{}", e.located("law", text)));
-    spec.compile(&LIBRARY).unwrap_or_else(|e| panic!("{}", e.located("law", text)))
+    spec.compile(Library::builtin()).unwrap_or_else(|e| panic!("{}", e.located("law", text)))
 }
 
 const STEEL: &str = "sphere = \"stainless-steel\"\nsurface = \"silicon\"\nroughness_factor = 0.15\n";

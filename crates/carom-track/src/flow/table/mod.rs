@@ -21,6 +21,8 @@ mod xml;
 pub use error::TableError;
 
 use super::Local;
+use super::piece::{Exit, Piece, leave, soonest};
+use crate::geometry::Path;
 use std::io::Read;
 
 /// Node coordinates along one axis, rising.
@@ -50,27 +52,49 @@ impl Axis {
         Self { at, per_spacing: even.then(|| 1.0 / h) }
     }
 
+    /// Which interval a coordinate lies in: 0 below the first node, as many as there are nodes above the last.
     #[inline]
-    fn place(&self, x: f64) -> Place {
+    fn interval(&self, x: f64) -> u32 {
         let n = self.at.len() - 1;
-        if n == 0 || x <= self.at[0] || x.is_nan() {
-            return Place {
-                low: 0,
-                high: n.min(1),
-                t: 0.0,
-                slope: if n > 0 && x == self.at[0] { self.width(0) } else { 0.0 },
-            };
+        // one node: nothing varies, and nothing ends
+        if n == 0 || x < self.at[0] || x.is_nan() {
+            return 0;
         }
-        if x >= self.at[n] {
-            return Place { low: n - 1, high: n, t: 1.0, slope: if x == self.at[n] { self.width(n - 1) } else { 0.0 } };
+        if x > self.at[n] {
+            return n as u32 + 1;
         }
         let low = match self.per_spacing {
-            // the quotient may fall on the wrong side of a node by rounding; interpolation there is the same
             Some(s) => (((x - self.at[0]) * s) as usize).min(n - 1),
-            None => self.at.partition_point(|a| *a <= x) - 1,
+            None => (self.at.partition_point(|a| *a <= x) - 1).min(n - 1),
         };
-        let slope = self.width(low);
-        Place { low, high: low + 1, t: (x - self.at[low]) * slope, slope }
+        // the quotient may fall on the wrong side of a node by rounding
+        let low = if x < self.at[low] { low - 1 } else { low };
+        let low = if low + 1 < n && x >= self.at[low + 1] { low + 1 } else { low };
+        low as u32 + 1
+    }
+
+    /// Edges of an interval, infinite where it has none.
+    #[inline]
+    fn bounds(&self, interval: u32) -> [f64; 2] {
+        let (i, n) = (interval as usize, self.at.len());
+        if n == 1 {
+            return [f64::NEG_INFINITY, f64::INFINITY];
+        }
+        [if i == 0 { f64::NEG_INFINITY } else { self.at[i - 1] }, if i == n { f64::INFINITY } else { self.at[i] }]
+    }
+
+    /// The place of a coordinate by the formula of an interval.
+    #[inline]
+    fn place(&self, interval: u32, x: f64) -> Place {
+        let (i, n) = (interval as usize, self.at.len());
+        if i == 0 {
+            return Place { low: 0, high: 1.min(n - 1), t: 0.0, slope: 0.0 };
+        }
+        if i == n {
+            return Place { low: n - 2, high: n - 1, t: 1.0, slope: 0.0 };
+        }
+        let slope = self.width(i - 1);
+        Place { low: i - 1, high: i, t: (x - self.at[i - 1]) * slope, slope }
     }
 
     #[inline]
@@ -186,8 +210,8 @@ impl Table {
     }
 
     #[inline]
-    fn places(&self, x: [f64; 3]) -> ([Place; 3], [[f64; 2]; 3]) {
-        let p = std::array::from_fn(|i| self.axes[i].place(x[i]));
+    fn places(&self, piece: Piece, x: [f64; 3]) -> ([Place; 3], [[f64; 2]; 3]) {
+        let p = std::array::from_fn(|i| self.axes[i].place(piece.0[i], x[i]));
         let w = [0, 1, 2].map(|i: usize| {
             let q: &Place = &p[i];
             [1.0 - q.t, q.t]
@@ -195,16 +219,60 @@ impl Table {
         (p, w)
     }
 
+    /// The piece of a point: a cell, or what continues the grid's boundary beyond it.
+    #[inline]
+    pub fn piece(&self, x: [f64; 3]) -> Piece {
+        Piece(std::array::from_fn(|i| self.axes[i].interval(x[i])))
+    }
+
+    /// Where a path leaves a piece.
+    pub fn exit(&self, piece: Piece, path: &Path) -> Option<Exit> {
+        let mut first = None;
+        for c in 0..3 {
+            let (down, up) = leave(path.start[c], &path.component(c), self.axes[c].bounds(piece.0[c]));
+            let next = |step: i32| {
+                let mut into = piece;
+                into.0[c] = into.0[c].wrapping_add_signed(step);
+                into
+            };
+            first = Exit::earlier(first, down.map(|theta| Exit { theta, into: next(-1) }));
+            first = Exit::earlier(first, up.map(|theta| Exit { theta, into: next(1) }));
+        }
+        first
+    }
+
+    /// Edges of a piece across an axis.
+    #[inline]
+    pub(super) fn edges(&self, piece: Piece, axis: usize) -> [f64; 2] {
+        self.axes[axis].bounds(piece.0[axis])
+    }
+
+    /// How soon a straight path at `v` leaves a piece, s.
+    pub fn soonest(&self, piece: Piece, x: [f64; 3], v: [f64; 3]) -> f64 {
+        (0..3).fold(f64::INFINITY, |t, c| t.min(soonest(x[c], v[c], self.axes[c].bounds(piece.0[c]))))
+    }
+
     /// Velocity at `x`, m/s.
     #[inline]
     pub fn velocity(&self, x: [f64; 3]) -> [f64; 3] {
-        let (p, w) = self.places(x);
+        self.velocity_in(self.piece(x), x)
+    }
+
+    /// Velocity at `x` by the formula of a piece, m/s.
+    #[inline]
+    pub fn velocity_in(&self, piece: Piece, x: [f64; 3]) -> [f64; 3] {
+        let (p, w) = self.places(piece, x);
         self.blend(&p, w)
     }
 
     /// Everything known at `x`. A table knows no walls: distance, normal and friction velocity are the caller's to fill in.
     pub fn sample(&self, x: [f64; 3]) -> Local {
-        let (p, w) = self.places(x);
+        self.sample_in(self.piece(x), x)
+    }
+
+    /// Everything known at `x`, by the formulas of a piece.
+    pub fn sample_in(&self, piece: Piece, x: [f64; 3]) -> Local {
+        let (p, w) = self.places(piece, x);
         let [u, v, w_, k, epsilon] = self.blend::<QUANTITIES>(&p, w);
         let mut gradient = [[0.0; 3]; 3];
         for j in 0..3 {
@@ -215,7 +283,7 @@ impl Table {
                 gradient[i][j] = column[i];
             }
         }
-        Local { k, epsilon, ..Local::steady([u, v, w_], gradient) }
+        Local { k: k.max(0.0), epsilon: epsilon.max(0.0), ..Local::steady([u, v, w_], gradient) }
     }
 }
 

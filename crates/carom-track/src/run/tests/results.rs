@@ -9,7 +9,7 @@ fn records(path: &Path) -> Vec<csv::StringRecord> {
 fn every_doubt_about_an_impact_is_in_its_row_and_counted() {
     let folder = tempfile::tempdir().unwrap();
     let text = CASE.replace("friction = 0.2", "friction = 0.2\nroughness = \"1 nm\"");
-    let case = Case::from_toml(&text, Path::new("case.toml"), &Library::builtin()).unwrap();
+    let case = Case::from_toml(&text, Path::new("case.toml"), Library::builtin()).unwrap();
     let summary = run(&case, &options(folder.path(), 2), &Silent).unwrap();
     let mut doubted = 0;
     for row in records(&folder.path().join(LAYOUTS[IMPACTS].file(TableFormat::Csv))) {
@@ -54,7 +54,7 @@ fn resuming_with_another_material_wall_or_flow_is_refused() {
         let is = |what: &str| changed == what;
         fs::write(at("flow.csv"), if is("flow") { "x,u\n0,1\n1,3\n" } else { "x,u\n0,1\n1,2\n" }).unwrap();
         fs::write(at("box.stl"), stl_box(if is("wall") { [50.0, 20.0, 31.0] } else { [50.0, 20.0, 30.0] })).unwrap();
-        let mut library = Library::builtin();
+        let mut library = Library::builtin().clone();
         let gamma = if is("material") { 0.4 } else { 0.3 };
         let mine = |name: &str, gamma: f64| {
             format!(

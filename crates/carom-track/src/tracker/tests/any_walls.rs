@@ -60,7 +60,7 @@ proptest! {
             walls.push(wall("block", Shape::Mesh(away)));
         }
         let behaviors: Vec<_> = walls.iter().map(|_| rough_bounce(restitution, angle)).collect();
-        let domain = Analytic::new(Flow::Uniform { velocity: wind }, walls);
+        let domain = AnyDomain::new(Flow::Uniform { velocity: wind }, walls);
         let mut d = dynamics(if vacuum { Drag::None } else { Drag::SchillerNaumann });
         d.forces.gravity = gravity;
         let mut paths = Paths::default();
@@ -108,7 +108,7 @@ fn a_sphere_driven_along_a_groove_comes_to_rest_in_it() {
         },
     ];
     let behaviors = [bounce(0.0014863437283143086), bounce(0.0014863437283143086)];
-    let domain = Analytic::new(Flow::Uniform { velocity: [-1.0843897599167562, 3.6106815808456254, 0.0] }, walls);
+    let domain = AnyDomain::new(Flow::Uniform { velocity: [-1.0843897599167562, 3.6106815808456254, 0.0] }, walls);
     let mut d = dynamics(Drag::SchillerNaumann);
     d.forces.gravity = [-0.6904331635817815, 0.0, 0.0];
     let v = [2.400293785861977, -4.988245807374214, 2.6474216303883624];

@@ -13,7 +13,7 @@ fn fall(removal: Option<Removal>) -> Log {
 /// Spheres of 20 µm that fall slowly onto a plate in a turbulent channel and stay.
 fn fall_on(text: &str, removal: Option<Removal>) -> Log {
     let flow = Channel::new(Profile::Turbulent, 0.03, 10.0, &Fluid::default()).unwrap();
-    let domain = Analytic::new(Flow::Channel(flow), vec![plane("floor", [0.0; 3], [0.0, 1.0, 0.0])]);
+    let domain = AnyDomain::new(Flow::Channel(flow), vec![plane("floor", [0.0; 3], [0.0, 1.0, 0.0])]);
     let laws = vec![law(text)];
     let behavior = match removal {
         None => Behavior::Law(laws),

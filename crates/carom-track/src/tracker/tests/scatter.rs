@@ -5,7 +5,7 @@ use super::*;
 /// A channel of copper spheres at 10 m/s between two rough plates, without gravity or drag.
 fn between_plates(angle: f64, seed: u64) -> Log {
     let walls = vec![plane("floor", [0.0; 3], [0.0, 1.0, 0.0]), plane("ceiling", [0.0, 0.02, 0.0], [0.0, -1.0, 0.0])];
-    let domain = Analytic::new(Flow::Still, walls);
+    let domain = AnyDomain::new(Flow::Still, walls);
     let mut d = dynamics(Drag::None);
     d.forces.gravity = [0.0; 3];
     let particles: Vec<_> = (0..40).map(|n| sphere(n, [0.0, 0.01, 0.0], [10.0, -0.5, 0.0])).collect();
@@ -54,7 +54,7 @@ fn rough_plates_turn_a_beam_across_the_channel() {
 
 #[test]
 fn spheres_come_to_rest_on_a_rough_floor() {
-    let domain = Analytic::new(Flow::Still, vec![plane("floor", [0.0; 3], [0.0, 1.0, 0.0])]);
+    let domain = AnyDomain::new(Flow::Still, vec![plane("floor", [0.0; 3], [0.0, 1.0, 0.0])]);
     let rough = law("normal = \"constant\"\nrestitution = 0.8\nfriction = 0.3\nroughness_angle = \"10 deg\"\n");
     let particles: Vec<_> = (0..20).map(|n| sphere(n, [0.0, 0.01, 0.0], [1.0, 0.0, 0.0])).collect();
     let log = track(&domain, &dynamics(Drag::SchillerNaumann), &[Behavior::Law(vec![rough])], settings(), &particles);

@@ -1,11 +1,13 @@
 //! What walls of each kind do.
 
+#![allow(clippy::needless_range_loop, reason = "one index runs through several arrays")]
+
 use super::*;
 
 #[test]
 fn a_sphere_at_rest_on_the_floor_settles_at_once_and_one_against_a_side_wall_falls() {
     let walls = vec![plane("floor", [0.0; 3], [0.0, 1.0, 0.0]), plane("side", [0.0; 3], [1.0, 0.0, 0.0])];
-    let domain = Analytic::new(Flow::Still, walls);
+    let domain = AnyDomain::new(Flow::Still, walls);
     let behaviors = [bounce(0.5), bounce(0.5)];
     let r = 45e-6;
     let at_rest = sphere(0, [0.1, r, 0.0], [0.0; 3]);
@@ -27,7 +29,7 @@ fn a_sphere_driven_into_a_corner_by_the_flow_stays_there() {
     // two walls at 60 degrees, the wind along their bisector into the wedge
     let (s, c) = 30f64.to_radians().sin_cos();
     let walls = vec![plane("low", [0.0; 3], [s, c, 0.0]), plane("high", [0.0; 3], [s, -c, 0.0])];
-    let domain = Analytic::new(Flow::Uniform { velocity: [-3.0, 0.0, 0.0] }, walls);
+    let domain = AnyDomain::new(Flow::Uniform { velocity: [-3.0, 0.0, 0.0] }, walls);
     let mut f = dynamics(Drag::Stokes);
     f.forces.gravity = [0.0; 3];
     let p = sphere(0, [0.01, 0.002, 0.0], [0.0, 0.3, 0.0]);
@@ -40,7 +42,7 @@ fn a_sphere_driven_into_a_corner_by_the_flow_stays_there() {
 
 #[test]
 fn no_force_no_end_but_the_time() {
-    let domain = Analytic::new(Flow::Still, vec![plane("floor", [0.0; 3], [0.0, 1.0, 0.0])]);
+    let domain = AnyDomain::new(Flow::Still, vec![plane("floor", [0.0; 3], [0.0, 1.0, 0.0])]);
     let mut f = dynamics(Drag::None);
     f.forces.gravity = [0.0; 3];
     // along the wall, touching it: nothing presses, so it glides on
@@ -54,7 +56,7 @@ fn no_force_no_end_but_the_time() {
 fn contact_at_the_centre_comes_one_radius_later() {
     let mut wall = plane("floor", [0.0; 3], [0.0, 1.0, 0.0]);
     wall.contact_at = ContactAt::Center;
-    let domain = Analytic::new(Flow::Still, vec![wall]);
+    let domain = AnyDomain::new(Flow::Still, vec![wall]);
     let p = sphere(0, [0.0, 0.01, 0.0], [0.0; 3]);
     let log = track(&domain, &dynamics(Drag::None), &[Behavior::Escape], settings(), &[p]);
     assert!((log.impacts[0].time - (2.0 * 0.01 / G).sqrt()).abs() < 1e-12);
@@ -67,7 +69,7 @@ fn elastic_spheres_in_a_pipe_keep_energy_and_stay_inside() {
     let pipe = Cylinder { point: [0.0; 3], axis: [1.0, 0.0, 0.0], radius: 0.005, inside: true };
     let wall =
         Wall { name: "pipe".into(), shape: Shape::Cylinder(pipe), contact_at: ContactAt::Surface, velocity: [0.0; 3] };
-    let domain = Analytic::new(Flow::Still, vec![wall]);
+    let domain = AnyDomain::new(Flow::Still, vec![wall]);
     let f = dynamics(Drag::None);
     let p = sphere(0, [0.0, 0.001, 0.002], [0.1, 0.7, -0.4]);
     let log = track(&domain, &f, &[bounce(1.0)], Settings { until: 1.0, ..settings() }, &[p]);
@@ -85,11 +87,11 @@ fn elastic_spheres_in_a_pipe_keep_energy_and_stay_inside() {
 fn a_moving_wall_is_a_resting_one_seen_from_it() {
     let belt = [1.5, 0.0, -0.5];
     let law = "normal = \"constant\"\nrestitution = 0.7\ntangential = \"rolling\"\nfriction = 0.3\n";
-    let law = carom::spec::parse_law(law).unwrap().compile(&carom::material::Library::builtin()).unwrap();
+    let law = carom::spec::parse_law(law).unwrap().compile(carom::material::Library::builtin()).unwrap();
     let behaviors = [Behavior::Law(vec![law])];
     let run = |wall: Vec3, v: Vec3| {
         let wall = Wall { velocity: wall, ..plane("belt", [0.0; 3], [0.0, 1.0, 0.0]) };
-        let domain = Analytic::new(Flow::Still, vec![wall]);
+        let domain = AnyDomain::new(Flow::Still, vec![wall]);
         let p = sphere(0, [0.0, 0.01, 0.0], v);
         track(&domain, &dynamics(Drag::None), &behaviors, Settings { until: 0.3, ..settings() }, &[p])
     };

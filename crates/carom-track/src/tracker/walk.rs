@@ -1,0 +1,336 @@
+//! The walk of `W` spheres side by side through a domain, step by step.
+
+#![allow(clippy::needless_range_loop, reason = "one index runs through several arrays of lanes or components")]
+
+use super::ahead::Met;
+use super::crew::{Crew, motion_of};
+use super::lane::{self, Lane};
+use super::{Behavior, Particle, Settings, meeting};
+use crate::domain::{Domain, Next};
+use crate::dynamics::{Bodies, Dynamics};
+use crate::force::Sphere;
+use crate::geometry::evaluate;
+use crate::integrate::{Control, Derivative, Lanes, Motion, Rates, growth, step};
+use crate::lanes::{bits, mask, take_lowest};
+use crate::record::{End, Fate, Sink};
+use crate::vector::{Vec3, add};
+
+/// All that stays the same during a run in one kind of domain.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Walk<'a, D> {
+    pub domain: &'a D,
+    pub dynamics: &'a Dynamics,
+    pub behaviors: &'a [Behavior],
+    pub settings: Settings,
+}
+
+/// Edges met in a row without any time between them after which a sphere is led off the edge.
+const MOST_EDGES: u32 = 8;
+/// What is left of a step that leads off an edge.
+const SHORT: f64 = 1e-3;
+
+/// The forces on the spheres of all lanes.
+struct Acting<'a, const W: usize, D: Domain> {
+    dynamics: &'a Dynamics,
+    domain: &'a D,
+    here: &'a [D::Here; W],
+    bodies: &'a Bodies<W>,
+}
+
+impl<const W: usize, D: Domain> Derivative<W> for Acting<'_, W, D> {
+    #[inline(always)]
+    fn rates(&self, time: &Lanes<W>, motion: &Motion<W>, out: &mut Rates<W>) {
+        self.dynamics.rates(self.domain, self.here, time, self.bodies, motion, out);
+    }
+}
+
+impl<D: Domain> Walk<'_, D> {
+    #[inline(always)]
+    pub(super) fn run_lanes<const W: usize>(&self, particles: &mut dyn Iterator<Item = Particle>, sink: &mut dyn Sink) {
+        let mut crew = Crew::<W, D::Here>::idle(D::NOWHERE);
+        let place = self.dynamics.need_place(self.domain);
+        let control = Control { tolerance: self.per_step(), spins: self.dynamics.spins(), place };
+        let mut met = [Met::NOTHING; W];
+        loop {
+            let mut working = false;
+            for l in 0..W {
+                while !crew.busy[l] {
+                    let Some(particle) = particles.next() else { break };
+                    self.begin(&mut crew, l, particle, sink);
+                }
+                working |= crew.busy[l];
+            }
+            if !working {
+                return;
+            }
+            if !self.domain.is_one_piece() {
+                self.limit(&mut crew);
+            }
+            crew.set_steps();
+            if self.drifts() {
+                for l in 0..W {
+                    if crew.busy[l] {
+                        self.lean(&mut crew, l);
+                    }
+                }
+            }
+            self.refresh(&mut crew);
+            let forces =
+                Acting { dynamics: self.dynamics, domain: self.domain, here: &crew.here, bodies: &crew.bodies };
+            step(&crew.time, &crew.motion, &crew.rates, &crew.h, control, &forces, &mut crew.step);
+            let ahead = self.domain.look(&crew.here, &crew.motion.x, &crew.step.path, &crew.bodies.radius);
+            let mut factor = [0.0; W];
+            for l in 0..W {
+                factor[l] = growth(crew.step.error_squared[l], control.place);
+            }
+            let goes = crew.go_on(&ahead, &factor, &self.settings, control.spins);
+            let mut rest = [0; W];
+            for l in 0..W {
+                rest[l] = mask(crew.busy[l]) & !goes[l];
+            }
+            let found = self.find_first(&crew, &ahead, &rest, &mut met);
+            let mut rest = bits(&rest);
+            while let Some(l) = take_lowest(&mut rest) {
+                let met = if found >> l & 1 == 1 { &met[l] } else { &Met::NOTHING };
+                self.advance(&mut crew, l, met, factor[l], sink);
+            }
+        }
+    }
+
+    /// Puts a particle into a lane; one that has no time to fly ends at once.
+    #[inline(always)]
+    fn begin<const W: usize>(&self, crew: &mut Crew<W, D::Here>, l: usize, particle: Particle, sink: &mut dyn Sink) {
+        self.dynamics.body(l, Sphere { diameter: particle.diameter, density: particle.density }, &mut crew.bodies);
+        for c in 0..3 {
+            crew.motion.x[c][l] = particle.position[c];
+            crew.motion.v[c][l] = particle.velocity[c];
+            crew.motion.spin[c][l] = particle.spin[c];
+        }
+        let trace = sink.start(&particle);
+        crew.lanes[l] = Lane::new(particle, trace);
+        crew.here[l] = self.domain.enter(particle.time, particle.position);
+        (crew.time[l], crew.stop[l], crew.steps[l]) = (particle.time, self.settings.until, 0);
+        (crew.busy[l], crew.quiet[l]) = (true, mask(!trace && !self.has_chance()));
+        if particle.time >= self.settings.until {
+            finish(crew, l, Fate::Airborne, None, sink);
+            return;
+        }
+        self.refresh_one(crew, l);
+        crew.next[l] = self.first_step(crew, l);
+        if self.has_chance() {
+            self.renew(crew, l, 0.0);
+        }
+        // all lanes at once cost little more than one
+        crew.stale[l] = true;
+    }
+
+    fn per_step(&self) -> f64 {
+        self.settings.per_step(self.dynamics.need_place(self.domain), !self.domain.is_one_piece())
+    }
+
+    /// A first trial step, s: what the tolerance is likely to allow where forces change over the time in which they
+    /// change the speed.
+    #[inline(always)]
+    fn first_step<const W: usize>(&self, crew: &Crew<W, D::Here>, l: usize) -> f64 {
+        let (mut speed, mut change) = (0.0f64, 0.0f64);
+        for c in 0..3 {
+            speed = speed.max(crew.motion.v[c][l].abs());
+            change = change.max(crew.rates.a[c][l].abs());
+        }
+        let share = (self.per_step() * 1e3).sqrt().sqrt();
+        let time = if speed > 0.0 && change > 0.0 { speed / change } else { 1.0 / crew.bodies.drag_rate[l] };
+        if time.is_finite() { share * time } else { 1.0 }
+    }
+
+    /// Rates of the lanes whose motion was changed. Where all come in one go, the others get the bits they have.
+    #[inline(always)]
+    fn refresh<const W: usize>(&self, crew: &mut Crew<W, D::Here>) {
+        if !crew.stale.contains(&true) {
+            return;
+        }
+        if self.dynamics.is_plain() {
+            self.dynamics.rates(self.domain, &crew.here, &crew.time, &crew.bodies, &crew.motion, &mut crew.rates);
+        } else {
+            for l in 0..W {
+                if crew.stale[l] {
+                    self.refresh_one(crew, l);
+                }
+            }
+        }
+        crew.stale = [false; W];
+    }
+
+    #[inline(always)]
+    fn refresh_one<const W: usize>(&self, crew: &mut Crew<W, D::Here>, l: usize) {
+        let (x, v, spin) = motion_of(&crew.motion, l);
+        let rates = self.rates_at((crew.here[l], crew.time[l]), &crew.bodies.one(l), x, v, spin);
+        for c in 0..3 {
+            crew.rates.a[c][l] = rates.a[c][0];
+            crew.rates.alpha[c][l] = rates.alpha[c][0];
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn rates_at(
+        &self,
+        (here, time): (D::Here, f64),
+        body: &Bodies<1>,
+        x: Vec3,
+        v: Vec3,
+        spin: Vec3,
+    ) -> Rates<1> {
+        let column = |v: Vec3| [[v[0]], [v[1]], [v[2]]];
+        let one = Motion::<1> { x: column(x), v: column(v), spin: column(spin) };
+        let mut rates = Rates::ZERO;
+        self.dynamics.rates(self.domain, &[here], &[time], body, &one, &mut rates);
+        rates
+    }
+
+    /// The longest steps worth trying, where the flow has pieces.
+    #[inline(always)]
+    fn limit<const W: usize>(&self, crew: &mut Crew<W, D::Here>) {
+        for l in 0..W {
+            let (x, v, _) = motion_of(&crew.motion, l);
+            crew.longest[l] = self.domain.longest(crew.here[l], x, v);
+        }
+    }
+
+    /// Takes a trial step of one lane: refuses it, accepts it, or ends it at a wall or an edge.
+    #[inline(always)]
+    fn advance<const W: usize>(
+        &self,
+        crew: &mut Crew<W, D::Here>,
+        l: usize,
+        met: &Met<D::Here>,
+        factor: f64,
+        sink: &mut dyn Sink,
+    ) {
+        let h = crew.h[l];
+        let good = crew.step.error_squared[l] <= 1.0;
+        if crew.steps[l] > self.settings.max_steps || (!good && crew.time[l] + h == crew.time[l]) {
+            sink.stalled();
+            finish(crew, l, Fate::Airborne, None, sink);
+        } else if !good {
+            crew.next[l] = h * factor.min(0.9);
+        } else {
+            match &met.next {
+                Next::Clear => self.accept(crew, l, factor, sink),
+                Next::Longest(share) => crew.next[l] = h * share,
+                Next::Edge { theta, into } => self.cross(crew, l, (*theta, *into), met, factor, sink),
+                Next::Wall(hit) => {
+                    let theta = hit.meeting.theta;
+                    if theta > 0.0 && theta < 1e-3 && !crew.lanes[l].fitted {
+                        // far down a long step the root keeps too few digits: look again with a step that fits
+                        crew.next[l] = 2.0 * theta * h;
+                        crew.lanes[l].fitted = true;
+                    } else {
+                        self.meet(crew, l, hit, met.velocity, sink);
+                    }
+                    crew.quiet[l] = mask(crew.lanes[l].is_quiet() && !self.has_chance());
+                }
+            }
+        }
+    }
+
+    /// Ends a step of one lane at the edge of a piece, and puts it into the next one.
+    fn cross<const W: usize>(
+        &self,
+        crew: &mut Crew<W, D::Here>,
+        l: usize,
+        (theta, into): (f64, D::Here),
+        met: &Met<D::Here>,
+        factor: f64,
+        sink: &mut dyn Sink,
+    ) {
+        let h = crew.h[l];
+        if crew.lanes[l].trace {
+            lane::trace(crew, l, theta, sink);
+        }
+        let spin = self.spin_at(crew, l, theta);
+        let before = crew.time[l];
+        crew.time[l] += theta * h;
+        crew.next[l] = crew.after(l, factor);
+        crew.here[l] = into;
+        meeting::put(crew, l, met.position, met.velocity, spin);
+        let lane = &mut crew.lanes[l];
+        lane.fitted = false;
+        if crew.time[l] > before {
+            (lane.standing, lane.edges) = (0, 0);
+        } else {
+            lane.edges += 1;
+            if lane.edges > MOST_EDGES {
+                // held on the edge from both sides: a short step leads off it
+                crew.next[l] *= SHORT;
+            }
+        }
+        crew.quiet[l] = mask(lane.is_quiet() && !self.has_chance());
+        if theta > 0.0 && self.has_chance() {
+            self.renew(crew, l, theta * h);
+        }
+    }
+
+    /// The spin at θ of a lane's step, rad/s.
+    #[inline(always)]
+    pub(super) fn spin_at<const W: usize>(&self, crew: &Crew<W, D::Here>, l: usize, theta: f64) -> Vec3 {
+        let spin = motion_of(&crew.motion, l).2;
+        if self.dynamics.spins() { add(spin, evaluate(&lane::points(&crew.step.twist, l), theta)) } else { spin }
+    }
+
+    /// Takes the whole step of one lane.
+    #[inline(always)]
+    fn accept<const W: usize>(&self, crew: &mut Crew<W, D::Here>, l: usize, factor: f64, sink: &mut dyn Sink) {
+        let h = crew.h[l];
+        if crew.lanes[l].trace {
+            lane::trace(crew, l, 1.0, sink);
+        }
+        let stop = crew.stop[l];
+        let stopped = h >= stop - crew.time[l];
+        crew.time[l] = if stopped { stop } else { crew.time[l] + h };
+        // a step cut short by a stop says little of the next
+        if !stopped || factor < 1.0 {
+            crew.next[l] = crew.after(l, factor);
+        }
+        let lane = &mut crew.lanes[l];
+        (lane.fitted, lane.standing, lane.edges) = (false, 0, 0);
+        crew.quiet[l] = mask(lane.is_quiet() && !self.has_chance());
+        for c in 0..3 {
+            crew.motion.x[c][l] = crew.step.end.x[c][l];
+            crew.motion.v[c][l] = crew.step.end.v[c][l];
+            crew.motion.spin[c][l] = crew.step.end.spin[c][l];
+            crew.rates.a[c][l] = crew.step.rates.a[c][l];
+            crew.rates.alpha[c][l] = crew.step.rates.alpha[c][l];
+        }
+        if stopped && stop >= self.settings.until {
+            finish(crew, l, Fate::Airborne, None, sink);
+        } else if self.has_chance() {
+            self.renew(crew, l, h);
+        }
+    }
+}
+
+/// Tells the sink how a lane's particle ended; the lane is free then.
+#[inline(always)]
+pub(super) fn finish<const W: usize, H>(
+    crew: &mut Crew<W, H>,
+    l: usize,
+    fate: Fate,
+    wall: Option<usize>,
+    sink: &mut dyn Sink,
+) {
+    (crew.busy[l], crew.quiet[l]) = (false, 0);
+    let lane = &crew.lanes[l];
+    let (position, velocity, spin) = motion_of(&crew.motion, l);
+    if lane.trace {
+        sink.point(lane.particle.number, crew.time[l], position, velocity, spin);
+    }
+    sink.end(&End {
+        particle: lane.particle,
+        fate,
+        wall,
+        time: crew.time[l],
+        position,
+        velocity,
+        spin,
+        steps: crew.steps[l],
+    });
+}
