@@ -22,6 +22,9 @@ pub struct Args {
     /// Folder for the whole
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
+    /// Replace the run that is in the folder
+    #[arg(long)]
+    force: bool,
     /// Write no report.html
     #[arg(long)]
     no_report: bool,
@@ -33,8 +36,8 @@ pub struct Args {
 /// Runs the subcommand.
 pub fn merge(args: &Args) -> Result<(), Failure> {
     run::check_folder(&args.out)?;
-    let (summary, about) = carom_track::merge(&args.shards, &args.out).map_err(run::failed)?;
+    let (summary, about) = carom_track::merge(&args.shards, &args.out, args.force).map_err(run::failed)?;
     report::write(&about, &summary, &args.out, !args.no_report)?;
     say(&format!("wrote {}", args.out.display()));
-    output::print(&if args.json { summary.to_json() } else { run::tell(&summary)? })
+    output::print(&if args.json { run::json(&summary)? } else { run::tell(&summary)? })
 }

@@ -14,6 +14,7 @@ const EXAMPLE: &str = "\
 Examples:
   carom run examples/wind-tunnel.toml --out out/
   carom run case.toml --out out/ --resume          go on where an interrupted run stopped
+  carom run case.toml --out out/ --force           instead of the run that is in the folder
   carom run case.toml --out part2/ --shard 2/8     the second of eight parts, on a machine of its own
 
 The folder then holds report.html, summary.json, every impact (impacts.csv) and every particle's end (fates.csv), the paths
@@ -36,6 +37,9 @@ pub struct Args {
     /// Go on where an interrupted run in the folder stopped
     #[arg(long, requires = "out")]
     resume: bool,
+    /// Replace the run that is in the folder
+    #[arg(long, requires = "out", conflicts_with = "resume")]
+    force: bool,
     /// Only the part I of N parts, as I/N
     #[arg(long, value_name = "I/N", requires = "out")]
     shard: Option<Shard>,
@@ -67,7 +71,15 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     for note in &case.notes {
         say(&format!("note: {note}"));
     }
-    let options = RunOptions { threads: args.threads, out: args.out.clone(), resume: args.resume, shard: args.shard };
+    let options = RunOptions {
+        threads: args.threads,
+        out: args.out.clone(),
+        resume: args.resume,
+        force: args.force,
+        shard: args.shard,
+        ..RunOptions::default()
+    };
+    tell_on_interrupt(args);
     let bar = Bar::new();
     let summary = carom_track::run(&case, &options, &bar);
     bar.0.finish_and_clear();
@@ -76,7 +88,33 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         report::write(&About::of(&case), &summary, folder, !args.no_report && args.shard.is_none())?;
         say(&format!("wrote {}", folder.display()));
     }
-    output::print(&if args.json { summary.to_json() } else { tell(&summary)? })
+    output::print(&if args.json { json(&summary)? } else { tell(&summary)? })
+}
+
+/// The summary as JSON.
+pub fn json(summary: &Summary) -> Result<String, Failure> {
+    summary.to_json().map_err(|e| Failure::Other(format!("JSON: {e}")))
+}
+
+/// An interrupted run says how to go on. What is on disk is whole at any time, so there is nothing else to do.
+fn tell_on_interrupt(args: &Args) {
+    let how = match &args.out {
+        Some(out) => {
+            let shard = args.shard.map_or(String::new(), |s| format!(" --shard {}/{}", s.index, s.of));
+            let (case, out) = (args.case.display(), out.display());
+            format!(
+                "interrupted; to go on: carom run {case} --out {out}{shard} --resume, with the other options as they were"
+            )
+        }
+        None => "interrupted".to_owned(),
+    };
+    let told = ctrlc::set_handler(move || {
+        say(&format!("\n{how}"));
+        std::process::exit(1);
+    });
+    if let Err(error) = told {
+        say(&format!("note: an interruption will end the run without a word ({error}); --resume goes on all the same"));
+    }
 }
 
 /// Refuses an output folder that cannot be one.
@@ -103,6 +141,10 @@ impl Bar {
 }
 
 impl Progress for Bar {
+    fn note(&self, text: &str) {
+        self.0.suspend(|| say(&format!("note: {text}")));
+    }
+
     fn particles(&self, done: u64, all: u64) {
         if self.0.length().is_none() {
             // what a resumed run had done before says nothing of the rate
@@ -118,9 +160,12 @@ impl Progress for Bar {
 pub fn failed(error: RunError) -> Failure {
     match &error {
         RunError::Io { path, source } => of_file(&path.display().to_string(), source),
-        RunError::Foreign { .. } | RunError::NoFolder | RunError::Shard { .. } | RunError::Missing { .. } => {
-            Failure::input(error.to_string())
-        }
+        RunError::Foreign { .. }
+        | RunError::Busy { .. }
+        | RunError::Occupied { .. }
+        | RunError::NoFolder
+        | RunError::Shard { .. }
+        | RunError::Missing { .. } => Failure::input(error.to_string()),
         _ => Failure::Other(error.to_string()),
     }
 }

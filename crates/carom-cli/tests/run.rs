@@ -151,7 +151,7 @@ fn the_report_shows_what_happened_and_asks_for_nothing_else() {
     }
     assert!(!html.contains("NaN"));
     // none when it is not wanted, and no old one is left
-    assert!(carom(folder.path(), &format!("run {MANY} --out out --no-report")).status.success());
+    assert!(carom(folder.path(), &format!("run {MANY} --out out --force --no-report")).status.success());
     assert!(!path.exists());
     assert!(carom(folder.path(), &format!("run {MANY} --out out --resume")).status.success());
     assert_eq!(text(&path), html);

@@ -27,6 +27,7 @@ pub mod number;
 mod parquet;
 mod parquet_reader;
 mod reader;
+mod row_groups;
 mod rows;
 mod text;
 mod values;
@@ -35,6 +36,7 @@ mod writer;
 pub use error::TableError;
 pub use number::significant;
 pub use reader::TableReader;
+pub use row_groups::{RowGroups, to_parquet};
 pub use rows::{Row, RowReader};
 pub use text::column_cells;
 pub use values::{Cell, Kind, Values};
@@ -237,9 +239,18 @@ impl Table {
     /// # Errors
     /// [`TableError::Mismatch`] where the schemas differ.
     pub fn append(&mut self, other: &Self) -> Result<(), TableError> {
+        self.append_rows(other, 0..other.rows())
+    }
+
+    /// Appends some of another table's rows, those that it has of a range.
+    ///
+    /// # Errors
+    /// [`TableError::Mismatch`] where the schemas differ.
+    pub fn append_rows(&mut self, other: &Self, rows: std::ops::Range<usize>) -> Result<(), TableError> {
         check_schema(&self.schema(), other)?;
+        let rows = rows.start.min(other.rows())..rows.end.min(other.rows());
         for (column, more) in self.columns.iter_mut().zip(&other.columns) {
-            column.values.extend(&more.values);
+            column.values.extend(&more.values, rows.clone());
         }
         Ok(())
     }

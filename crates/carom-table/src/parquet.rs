@@ -6,7 +6,7 @@ use std::sync::Arc;
 use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical};
 use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
 use parquet::file::metadata::KeyValue;
-use parquet::file::properties::WriterProperties;
+use parquet::file::properties::{WriterProperties, WriterPropertiesBuilder};
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::types::Type;
 
@@ -23,17 +23,7 @@ pub(crate) struct ParquetEncoder<W: Write + Send> {
 
 impl<W: Write + Send> ParquetEncoder<W> {
     pub(crate) fn new(stream: W, schema: &[Field]) -> Result<Self, TableError> {
-        let fields = schema.iter().map(|f| parquet_field(f).map(Arc::new)).collect::<Result<_, _>>()?;
-        let root = Type::group_type_builder("schema").with_fields(fields).build()?;
-        let units: serde_json::Map<_, _> =
-            schema.iter().filter(|f| !f.unit.is_empty()).map(|f| (f.name.clone(), f.unit.clone().into())).collect();
-        let units = KeyValue::new("units".to_owned(), serde_json::Value::Object(units).to_string());
-        let properties = WriterProperties::builder()
-            .set_compression(Compression::SNAPPY)
-            .set_created_by(concat!("carom ", env!("CARGO_PKG_VERSION")).to_owned())
-            .set_key_value_metadata(Some(vec![units]))
-            .build();
-        let inner = SerializedFileWriter::new(stream, Arc::new(root), Arc::new(properties))?;
+        let inner = SerializedFileWriter::new(stream, root(schema)?, Arc::new(properties(schema).build()))?;
         Ok(Self { inner, pending: Table::with_schema(schema)? })
     }
 
@@ -44,9 +34,7 @@ impl<W: Write + Send> ParquetEncoder<W> {
 
     fn write_group(&mut self) -> Result<(), TableError> {
         let mut group = self.inner.next_row_group()?;
-        for column in self.pending.columns() {
-            write_column(&mut group, &column.values)?;
-        }
+        write_columns(&mut group, &self.pending)?;
         group.close()?;
         self.pending.clear();
         Ok(())
@@ -58,6 +46,37 @@ impl<W: Write + Send> ParquetEncoder<W> {
         }
         Ok(self.inner.into_inner()?)
     }
+}
+
+/// The schema as Parquet has it.
+pub(crate) fn root(schema: &[Field]) -> Result<Arc<Type>, TableError> {
+    let fields = schema.iter().map(|f| parquet_field(f).map(Arc::new)).collect::<Result<_, _>>()?;
+    Ok(Arc::new(Type::group_type_builder("schema").with_fields(fields).build()?))
+}
+
+pub(crate) const CREATED_BY: &str = concat!("carom ", env!("CARGO_PKG_VERSION"));
+
+/// The units, as the file's metadata tell them.
+pub(crate) fn units(schema: &[Field]) -> Vec<KeyValue> {
+    let units: serde_json::Map<_, _> =
+        schema.iter().filter(|f| !f.unit.is_empty()).map(|f| (f.name.clone(), f.unit.clone().into())).collect();
+    vec![KeyValue::new("units".to_owned(), serde_json::Value::Object(units).to_string())]
+}
+
+/// How all files are written.
+pub(crate) fn properties(schema: &[Field]) -> WriterPropertiesBuilder {
+    WriterProperties::builder()
+        .set_compression(Compression::SNAPPY)
+        .set_created_by(CREATED_BY.to_owned())
+        .set_key_value_metadata(Some(units(schema)))
+}
+
+/// Writes all rows of a table as one row group.
+pub(crate) fn write_columns<W: Write + Send>(
+    group: &mut SerializedRowGroupWriter<'_, W>,
+    table: &Table,
+) -> Result<(), TableError> {
+    table.columns().iter().try_for_each(|column| write_column(group, &column.values))
 }
 
 fn parquet_field(field: &Field) -> Result<Type, TableError> {

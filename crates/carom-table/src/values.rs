@@ -104,13 +104,13 @@ impl Values {
         Ok(())
     }
 
-    pub(crate) fn extend(&mut self, other: &Self) {
+    pub(crate) fn extend(&mut self, other: &Self, rows: std::ops::Range<usize>) {
         match (self, other) {
-            (Self::Float(a), Self::Float(b)) => a.extend_from_slice(b),
-            (Self::Integer(a), Self::Integer(b)) => a.extend_from_slice(b),
-            (Self::Count(a), Self::Count(b)) => a.extend_from_slice(b),
-            (Self::Text(a), Self::Text(b)) => a.extend_from_slice(b),
-            // The only caller, Table::append, has compared the schemas.
+            (Self::Float(a), Self::Float(b)) => a.extend_from_slice(&b[rows]),
+            (Self::Integer(a), Self::Integer(b)) => a.extend_from_slice(&b[rows]),
+            (Self::Count(a), Self::Count(b)) => a.extend_from_slice(&b[rows]),
+            (Self::Text(a), Self::Text(b)) => a.extend_from_slice(&b[rows]),
+            // The only caller, Table::append_rows, has compared the schemas.
             _ => {}
         }
     }

@@ -1,73 +1,220 @@
-//! A block of particle numbers, tracked to the end: its rows in order, and its part of the summary.
+//! Some particles, tracked to the end: their rows in order, and their part of the summary.
 
 use crate::case::Case;
-use crate::record::{End, ImpactRecord, Sink};
-use crate::rows::{Rows, quoted};
+use crate::deposition::{Cell, Sorter};
+use crate::record::columns::Columns;
+use crate::record::{End, Event, ImpactRecord, Sink};
+use crate::run::RunError;
+use crate::run::spill::Spill;
 use crate::summary::Summary;
-use crate::tables::{FATES, IMPACTS, LAYOUTS, TRAJECTORIES};
+use crate::tables::{DEPOSIT, FATES, IMPACTS, LAYOUTS, TRAJECTORIES, Words, push_deposit, push_end, push_impact};
 use crate::tracker::Particle;
 use crate::vector::Vec3;
+use std::io;
 use std::ops::Range;
+use std::path::PathBuf;
 
-/// Particles in a block. Results do not depend on it; memory and the grain of a checkpoint do.
+/// Particles that a shard is made of: it has whole multiples of them.
 pub const SIZE: u64 = 1024;
+
+/// In which forms the rows of a table are wanted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Forms {
+    /// As CSV.
+    pub text: bool,
+    /// As cells of eight bytes.
+    pub cells: bool,
+    /// As they are.
+    pub columns: bool,
+}
+
+impl Forms {
+    fn any(self) -> bool {
+        self.text || self.cells || self.columns
+    }
+}
+
+/// What is to be recorded, and how.
+#[derive(Debug)]
+pub(crate) struct Recording<'a> {
+    pub case: &'a Case,
+    pub forms: [Forms; LAYOUTS.len()],
+    pub sorter: Sorter,
+    pub words: Words,
+    /// Where rows go beyond as many bytes as may be held of a block.
+    pub aside: PathBuf,
+    pub most: usize,
+}
+
+/// Rows in the forms that are wanted.
+#[derive(Debug, Default)]
+pub(crate) struct Encoded {
+    pub text: Vec<u8>,
+    pub cells: Vec<u8>,
+    pub columns: Option<Columns>,
+}
+
+/// The rows of a table.
+#[derive(Debug)]
+pub(crate) enum Rows {
+    Held(Encoded),
+    Aside(Spill),
+}
 
 /// A finished block.
 #[derive(Debug)]
 pub(crate) struct Block {
     pub summary: Summary,
-    /// Rows of each table, as CSV.
-    pub rows: [Vec<u8>; LAYOUTS.len()],
+    pub tables: [Rows; LAYOUTS.len()],
 }
 
-/// One point of a recorded path.
-type Point = (u64, [f64; 10]);
+impl<'a> Recording<'a> {
+    pub fn new(case: &'a Case, forms: [Forms; LAYOUTS.len()], aside: PathBuf, most: usize) -> Self {
+        let walls = case.domain.walls().iter().map(|w| w.name.clone());
+        let injections = case.injections.iter().map(|i| i.name.clone());
+        Self { case, forms, sorter: Sorter::new(&case.bins), words: Words::new(walls, injections), aside, most }
+    }
+
+    /// Rows of a table as they are wanted.
+    pub fn encode(&self, table: usize, columns: Columns) -> Encoded {
+        let forms = self.forms[table];
+        let mut encoded = Encoded::default();
+        if forms.text {
+            encoded.text = self.words.to_csv(&LAYOUTS[table], &columns);
+        }
+        if forms.cells {
+            columns.to_bytes(&mut encoded.cells);
+        }
+        encoded.columns = forms.columns.then_some(columns);
+        encoded
+    }
+
+    /// Tracks the particles of a range of numbers.
+    pub fn track(&self, numbers: Range<u64>) -> Result<Block, RunError> {
+        let mut collector = Collector {
+            recording: self,
+            summary: Summary::part(self.case.domain.walls().len(), &self.case.bins),
+            tables: LAYOUTS.each_ref().map(|layout| (layout.empty(), None)),
+            held: 0,
+            deposits: Vec::new(),
+            first: numbers.start,
+            own: vec![Own::default(); (numbers.end - numbers.start) as usize],
+            failed: None,
+        };
+        self.case.tracker().run(&mut numbers.filter_map(|n| self.case.particle(n)), &mut collector);
+        collector.finish().map_err(|e| RunError::io(&self.aside)(e))
+    }
+}
+
+/// What is counted of one particle.
+#[derive(Clone, Copy, Debug, Default)]
+struct Own {
+    impacts: u64,
+    mass: f64,
+}
 
 struct Collector<'a> {
-    case: &'a Case,
+    recording: &'a Recording<'a>,
     summary: Summary,
-    impacts: Vec<ImpactRecord>,
-    ends: Vec<End>,
-    points: Vec<Point>,
-    /// The first particle's number, and how many impacts each has had.
+    tables: [(Columns, Option<Spill>); LAYOUTS.len()],
+    /// Bytes of the rows held.
+    held: usize,
+    deposits: Vec<(Cell, f64)>,
+    /// The first particle's number.
     first: u64,
-    hits: Vec<u64>,
-    wanted: Wanted,
+    own: Vec<Own>,
+    failed: Option<io::Error>,
 }
 
-/// Which tables' rows are wanted.
-pub(crate) type Wanted = [bool; LAYOUTS.len()];
-
 impl Collector<'_> {
-    fn hits(&mut self, particle: u64) -> Option<&mut u64> {
-        self.hits.get_mut(usize::try_from(particle.checked_sub(self.first)?).ok()?)
+    fn wants(&self, table: usize) -> bool {
+        self.recording.forms[table].any() && self.failed.is_none()
+    }
+
+    fn own(&mut self, particle: u64) -> &mut Own {
+        &mut self.own[(particle - self.first) as usize]
+    }
+
+    /// A row was added to a table.
+    fn added(&mut self, table: usize) {
+        self.held += self.tables[table].0.row_bytes();
+        if self.held > self.recording.most
+            && let Err(error) = self.put_aside()
+        {
+            self.failed = Some(error);
+        }
+    }
+
+    fn put_aside(&mut self) -> io::Result<()> {
+        self.held = 0;
+        for (columns, spill) in self.tables.iter_mut().filter(|(columns, _)| columns.rows() > 0) {
+            let empty = columns.empty_like();
+            let spill = match spill {
+                Some(spill) => spill,
+                None => spill.insert(Spill::new(&self.recording.aside, empty.clone())?),
+            };
+            spill.add(std::mem::replace(columns, empty))?;
+        }
+        Ok(())
+    }
+
+    fn finish(mut self) -> io::Result<Block> {
+        if let Some(error) = self.failed {
+            return Err(error);
+        }
+        self.summary.deposition.keep(std::mem::take(&mut self.deposits));
+        let mut tables = Vec::new();
+        for (table, (columns, spill)) in self.tables.into_iter().enumerate() {
+            tables.push(match spill {
+                Some(mut spill) => {
+                    spill.add(columns)?;
+                    Rows::Aside(spill)
+                }
+                None => Rows::Held(self.recording.encode(table, columns.by_particle())),
+            });
+        }
+        let tables = tables.try_into().map_err(|_| io::Error::other("a table too few"))?;
+        Ok(Block { summary: self.summary, tables })
     }
 }
 
 impl Sink for Collector<'_> {
     fn start(&mut self, particle: &Particle) -> bool {
-        self.summary.start(particle.mass());
-        self.wanted[TRAJECTORIES] && particle.number < self.case.trajectories
+        let mass = particle.mass();
+        self.summary.start(mass);
+        self.own(particle.number).mass = mass;
+        self.wants(TRAJECTORIES) && particle.number < self.recording.case.trajectories
     }
 
     fn impact(&mut self, impact: &ImpactRecord) {
-        self.summary.impact(impact);
-        if let Some(hits) = self.hits(impact.particle) {
-            *hits += 1;
+        let own = self.own(impact.particle);
+        own.impacts += 1;
+        let mass = own.mass;
+        self.summary.impact(impact, mass);
+        if self.wants(IMPACTS) {
+            push_impact(&mut self.tables[IMPACTS].0, impact);
+            self.added(IMPACTS);
         }
-        if self.wanted[IMPACTS] {
-            self.impacts.push(*impact);
+        if self.wants(DEPOSIT) && matches!(impact.event, Event::Capture | Event::Settle | Event::Trap) {
+            push_deposit(&mut self.tables[DEPOSIT].0, impact);
+            self.added(DEPOSIT);
         }
     }
 
     fn point(&mut self, particle: u64, t: f64, x: Vec3, v: Vec3, w: Vec3) {
-        self.points.push((particle, [t, x[0], x[1], x[2], v[0], v[1], v[2], w[0], w[1], w[2]]));
+        if self.wants(TRAJECTORIES) {
+            self.tables[TRAJECTORIES].0.row().count(particle).float(t).vector(x).vector(v).vector(w).end();
+            self.added(TRAJECTORIES);
+        }
     }
 
     fn end(&mut self, end: &End) {
-        self.summary.end(end, &self.case.bins);
-        if self.wanted[FATES] {
-            self.ends.push(*end);
+        let deposit = self.summary.end(end, &self.recording.sorter);
+        self.deposits.extend(deposit);
+        if self.wants(FATES) {
+            let impacts = self.own(end.particle.number).impacts;
+            push_end(&mut self.tables[FATES].0, end, impacts);
+            self.added(FATES);
         }
     }
 
@@ -76,91 +223,7 @@ impl Sink for Collector<'_> {
     }
 }
 
-/// Tracks the particles of a range of numbers.
-pub(crate) fn track(case: &Case, numbers: Range<u64>, wanted: Wanted) -> Block {
-    let mut collector = Collector {
-        case,
-        summary: empty(case),
-        impacts: Vec::new(),
-        ends: Vec::new(),
-        points: Vec::new(),
-        first: numbers.start,
-        hits: vec![0; numbers.clone().count()],
-        wanted,
-    };
-    case.tracker().run(&mut numbers.filter_map(|n| case.particle(n)), &mut collector);
-    let Collector { summary, mut impacts, mut ends, mut points, hits, first, .. } = collector;
-    // events of one particle are in order already: a stable sort keeps them so
-    impacts.sort_by_key(|i| i.particle);
-    points.sort_by_key(|p| p.0);
-    ends.sort_by_key(|e| e.particle.number);
-    let walls: Vec<String> = case.domain.walls().iter().map(|w| quoted(&w.name)).collect();
-    let injections: Vec<String> = case.injections.iter().map(|i| quoted(&i.name)).collect();
-    fn word(words: &[String], i: usize) -> &str {
-        words.get(i).map_or("", String::as_str)
-    }
-    let mut tables = [Rows::default(), Rows::default(), Rows::default()];
-    for i in &impacts {
-        impact_row(&mut tables[IMPACTS], i, word(&walls, i.wall));
-    }
-    for e in &ends {
-        let hits = hits.get((e.particle.number - first) as usize).copied().unwrap_or_default();
-        let wall = e.wall.map_or("", |w| word(&walls, w));
-        fate_row(&mut tables[FATES], e, word(&injections, e.particle.injection), wall, hits);
-    }
-    for (particle, values) in &points {
-        tables[TRAJECTORIES].count(*particle);
-        tables[TRAJECTORIES].floats(*values);
-        tables[TRAJECTORIES].end();
-    }
-    Block { summary, rows: tables.map(Rows::into_bytes) }
-}
-
 /// A summary of nothing.
 pub(crate) fn empty(case: &Case) -> Summary {
     Summary::new(&case.title, case.domain.walls().iter().map(|w| w.name.clone()), &case.bins)
-}
-
-fn impact_row(row: &mut Rows, i: &ImpactRecord, wall: &str) {
-    row.count(i.particle);
-    row.float(i.time);
-    row.floats(i.position);
-    row.word(wall);
-    row.floats([i.diameter, i.normal_speed_in, i.tangential_speed_in, i.spin_in, i.restitution, i.impulse_ratio]);
-    row.word(i.event.name());
-    row.floats([i.normal_speed_out, i.tangential_speed_out, i.spin_out, i.weight]);
-    row.floats(i.normal);
-    row.floats(i.energy.named().map(|(_, share)| share));
-    row.words(i.validity.codes());
-    row.end();
-}
-
-fn fate_row(row: &mut Rows, e: &End, injection: &str, wall: &str, impacts: u64) {
-    let p = &e.particle;
-    row.count(p.number);
-    for word in [injection, e.fate.name(), wall] {
-        row.word(word);
-    }
-    row.float(e.time);
-    row.floats(e.position);
-    row.floats([p.diameter, p.weight, p.mass()]);
-    row.count(impacts);
-    row.end();
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::record::Fate;
-
-    #[test]
-    fn headers_and_rows_have_as_many_columns() {
-        let names: Vec<String> = LAYOUTS[IMPACTS].schema().into_iter().map(|f| f.name).collect();
-        assert_eq!(names.len(), 10 + 10 + 8 + 1);
-        let energies = carom::Energy::default().named().map(|(name, _)| name);
-        assert_eq!(names[20..28], energies);
-        assert_eq!(LAYOUTS[TRAJECTORIES].schema().len(), 11);
-        assert_eq!(LAYOUTS[FATES].header(), "particle,injection,fate,wall,time,x,y,z,diameter,weight,mass,impacts\n");
-        assert_eq!(Fate::ALL.map(|f| f as usize), [0, 1, 2, 3, 4, 5]);
-    }
 }

@@ -11,6 +11,7 @@ mod removal;
 mod text;
 mod wall;
 
+pub(crate) use files::Fingerprint;
 pub use injection::Injected;
 
 use crate::deposition::{Bins, Region};
@@ -91,6 +92,7 @@ impl Case {
         if injections.is_empty() {
             return Err(SpecError::new("the case injects nothing").help("add an [[injection]]"));
         }
+        countable(&injections)?;
         injection::distinct(read.injection.iter().filter_map(|i| i.value.name.as_ref()), "injection")?;
         injection::distinct(read.wall.iter().map(|w| &w.value.name), "wall")?;
         let walls = read.wall.iter().map(|w| wall::read(w, &files)).collect::<Result<Vec<_>, _>>()?;
@@ -156,6 +158,23 @@ impl Case {
         }
         None
     }
+}
+
+/// Particles are counted one by one, and JSON's readers keep no more digits.
+const MOST_PARTICLES: u64 = 1 << 53;
+
+fn countable(injections: &[Injected]) -> Result<(), SpecError> {
+    let mut all = 0u64;
+    for injected in injections {
+        all = all.saturating_add(injected.injection.count());
+        if all > MOST_PARTICLES {
+            let message = format!("{} makes {} particles or more in all", injected.name, MOST_PARTICLES + 1);
+            let help =
+                "at most 2^53 (9007199254740992) can be counted: give fewer, each with a weight (mass and parcels)";
+            return Err(SpecError::new(message).help(help).at(injected.place.clone()));
+        }
+    }
+    Ok(())
 }
 
 /// Laws that no wall uses must be right too.

@@ -3,9 +3,16 @@
 //! Counts and exact masses, so that parts of a run add up to the whole; fractions of what was injected in each size bin,
 //! with 95 % confidence intervals after Wilson (1927, J. Am. Stat. Assoc. 22, 209–212, doi:10.2307/2276774).
 
+mod faces;
+mod regions;
+
+pub use faces::{FaceTally, Faces};
+pub(crate) use regions::Sorter;
+
 use crate::record::{End, Fate};
 use crate::summary::Amount;
 use crate::vector::Vec3;
+use std::collections::BTreeMap;
 
 /// A named box; a particle counts in the first that holds its place.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -19,7 +26,7 @@ pub struct Region {
 }
 
 impl Region {
-    fn holds(&self, x: Vec3) -> bool {
+    pub(crate) fn holds(&self, x: Vec3) -> bool {
         (0..3).all(|c| x[c] >= self.min[c] && x[c] <= self.max[c])
     }
 }
@@ -34,71 +41,110 @@ pub struct Bins {
 }
 
 impl Bins {
-    fn size(&self, diameter: f64) -> usize {
-        self.sizes.partition_point(|edge| *edge <= diameter)
-    }
-
-    fn region(&self, x: Vec3) -> usize {
-        self.regions.iter().position(|r| r.holds(x)).unwrap_or(self.regions.len())
-    }
-
     /// The bounds of a size bin, m.
-    pub fn bounds(&self, bin: usize) -> (f64, f64) {
+    fn bounds(&self, bin: usize) -> (f64, f64) {
         let edge = |i: usize| self.sizes.get(i).copied();
         (bin.checked_sub(1).and_then(edge).unwrap_or(0.0), edge(bin).unwrap_or(f64::INFINITY))
     }
 }
 
-/// Counts by size bin, and by wall, region and size bin.
+/// Where a deposit is counted: indices of its wall, its region (one more than there are for none) and its size bin.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize)]
+pub struct Cell {
+    /// Of the wall.
+    pub wall: u32,
+    /// Of the region.
+    pub region: u32,
+    /// Of the size bin.
+    pub size: u32,
+}
+
+/// Counts by size bin, and by wall, region and size bin; only cells that hold something take room.
 #[derive(Clone, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Deposition {
     /// Injected, by size bin.
     pub injected: Vec<Amount>,
-    /// Kept by a wall: `[wall][region][size]`.
-    pub kept: Vec<Vec<Vec<Amount>>>,
+    /// Kept by walls.
+    #[serde(with = "pairs")]
+    kept: BTreeMap<Cell, Amount>,
+}
+
+/// Maps whose keys are no text, as lists of pairs.
+pub(crate) mod pairs {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+    use std::collections::BTreeMap;
+
+    pub fn serialize<K: Serialize, V: Serialize, S: Serializer>(
+        map: &BTreeMap<K, V>,
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(map)
+    }
+
+    pub fn deserialize<'de, K: Deserialize<'de> + Ord, V: Deserialize<'de>, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<BTreeMap<K, V>, D::Error> {
+        Ok(Vec::<(K, V)>::deserialize(deserializer)?.into_iter().collect())
+    }
 }
 
 impl Deposition {
     /// Nothing yet.
-    pub fn new(bins: &Bins, walls: usize) -> Self {
-        let sizes = vec![Amount::default(); bins.sizes.len() + 1];
-        Self { kept: vec![vec![sizes.clone(); bins.regions.len() + 1]; walls], injected: sizes }
+    pub fn new(bins: &Bins) -> Self {
+        Self { injected: vec![Amount::default(); bins.sizes.len() + 1], kept: BTreeMap::new() }
     }
 
-    pub(crate) fn add(&mut self, bins: &Bins, end: &End) {
-        let size = bins.size(end.particle.diameter);
+    /// What walls kept, by cell, in their order.
+    pub fn kept(&self) -> impl Iterator<Item = (Cell, &Amount)> {
+        self.kept.iter().map(|(cell, amount)| (*cell, amount))
+    }
+
+    /// Counts how a sphere ended; the cell of its deposit, if it is one, is left to [`Deposition::keep`].
+    pub(crate) fn end(&mut self, sorter: &Sorter, end: &End) -> Option<(Cell, f64)> {
+        let size = sorter.size(end.particle.diameter);
         let mass = end.particle.mass();
-        if let Some(injected) = self.injected.get_mut(size) {
-            injected.add(mass);
-        }
+        self.injected[size].add(mass);
         if !matches!(end.fate, Fate::Captured | Fate::Settled | Fate::Trapped) {
-            return;
+            return None;
         }
-        let cell = end
-            .wall
-            .and_then(|w| self.kept.get_mut(w))
-            .and_then(|w| w.get_mut(bins.region(end.position)))
-            .and_then(|r| r.get_mut(size));
-        if let Some(cell) = cell {
-            cell.add(mass);
+        let cell = Cell { wall: end.wall? as u32, region: sorter.region(end.position) as u32, size: size as u32 };
+        Some((cell, mass))
+    }
+
+    /// Adds deposits, in any order.
+    pub(crate) fn keep(&mut self, mut deposits: Vec<(Cell, f64)>) {
+        deposits.sort_unstable_by_key(|(cell, _)| *cell);
+        for run in deposits.chunk_by(|a, b| a.0 == b.0) {
+            let amount = self.kept.entry(run[0].0).or_default();
+            run.iter().for_each(|(_, mass)| amount.add(*mass));
         }
     }
 
     pub(crate) fn merge(&mut self, other: &Self) {
-        let merge = |a: &mut [Amount], b: &[Amount]| a.iter_mut().zip(b).for_each(|(a, b)| a.merge(b));
-        merge(&mut self.injected, &other.injected);
-        for (a, b) in self.kept.iter_mut().zip(&other.kept) {
-            for (a, b) in a.iter_mut().zip(b) {
-                merge(a, b);
-            }
+        self.injected.iter_mut().zip(&other.injected).for_each(|(a, b)| a.merge(b));
+        for (cell, amount) in &other.kept {
+            self.kept.entry(*cell).or_default().merge(amount);
         }
+    }
+
+    /// Whether it is of so many walls and of these bins.
+    pub(crate) fn fits(&self, bins: &Bins, walls: usize) -> bool {
+        self.injected.len() == bins.sizes.len() + 1
+            && self.kept.keys().all(|c| {
+                (c.wall as usize) < walls
+                    && c.region as usize <= bins.regions.len()
+                    && c.size as usize <= bins.sizes.len()
+            })
     }
 
     /// The text of `deposition.csv`: wall, region, size bin, count, mass, the fraction of the number injected in that size
     /// bin and its 95 % confidence interval, the fraction of the mass. Empty cells are left out.
-    pub fn to_csv(&self, bins: &Bins, walls: &[String]) -> String {
+    ///
+    /// # Errors
+    /// What the writer says.
+    pub fn to_csv(&self, bins: &Bins, walls: &[String]) -> Result<String, csv::Error> {
         let mut writer = csv::Writer::from_writer(Vec::new());
-        let header = [
+        writer.write_record([
             "wall",
             "region",
             "diameter_from",
@@ -110,13 +156,14 @@ impl Deposition {
             "fraction_low",
             "fraction_high",
             "mass_fraction",
-        ];
-        // a vector in memory takes every row
-        let _ = writer.write_record(header);
-        for (wall, regions) in walls.iter().zip(&self.kept) {
-            for (r, sizes) in regions.iter().enumerate() {
+        ])?;
+        let none = Amount::default();
+        for (w, wall) in walls.iter().enumerate() {
+            for r in 0..=bins.regions.len() {
                 let region = bins.regions.get(r).map_or("", |r| r.name.as_str());
-                for (bin, (kept, injected)) in sizes.iter().zip(&self.injected).enumerate() {
+                for (bin, injected) in self.injected.iter().enumerate() {
+                    let cell = Cell { wall: w as u32, region: r as u32, size: bin as u32 };
+                    let kept = self.kept.get(&cell).unwrap_or(&none);
                     if kept.count == 0 && (injected.count == 0 || r == bins.regions.len() && r > 0) {
                         continue;
                     }
@@ -125,7 +172,7 @@ impl Deposition {
                     let fraction = kept.count as f64 / injected.count as f64;
                     let masses = (kept.mass.value(), kept.mass.value() / injected.mass.value());
                     let to = to.is_finite().then_some(to);
-                    let _ = writer.serialize((
+                    writer.serialize((
                         wall,
                         region,
                         from,
@@ -135,11 +182,13 @@ impl Deposition {
                         masses.0,
                         [fraction, low, high],
                         masses.1,
-                    ));
+                    ))?;
                 }
             }
         }
-        String::from_utf8(writer.into_inner().unwrap_or_default()).unwrap_or_default()
+        let bytes = writer.into_inner().map_err(|e| csv::Error::from(e.into_error()))?;
+        // a writer of texts and numbers makes UTF-8
+        Ok(String::from_utf8_lossy(&bytes).into_owned())
     }
 }
 
@@ -149,11 +198,14 @@ pub fn wilson(hits: u64, n: u64) -> (f64, f64) {
     if n == 0 {
         return (0.0, 1.0);
     }
-    let (n, p) = (n as f64, hits as f64 / n as f64);
+    let (n, hits) = (n as f64, hits as f64);
+    let p = hits / n;
     let z2 = Z * Z / n;
     let centre = p + 0.5 * z2;
     let reach = Z * (p * (1.0 - p) / n + 0.25 * z2 / n).sqrt();
-    (((centre - reach) / (1.0 + z2)).max(0.0), ((centre + reach) / (1.0 + z2)).min(1.0))
+    let low = if hits == 0.0 { 0.0 } else { ((centre - reach) / (1.0 + z2)).max(0.0) };
+    let high = if hits == n { 1.0 } else { ((centre + reach) / (1.0 + z2)).min(1.0) };
+    (low, high)
 }
 
 #[cfg(test)]
@@ -167,14 +219,16 @@ mod tests {
         assert!((low - 0.2553).abs() < 5e-5 && (high - 0.3662).abs() < 5e-5, "{low} {high}");
         let (low, high) = wilson(0, 20);
         assert!(low == 0.0 && (high - 0.1611).abs() < 5e-5, "{high}");
+        assert!((1..5000).all(|n| wilson(0, n).0 == 0.0 && wilson(n, n).1 == 1.0));
     }
 
     #[test]
     fn bins_and_regions_hold_what_they_say() {
         let region = Region { name: "left".into(), min: [0.0; 3], max: [1.0; 3] };
         let bins = Bins { sizes: vec![1e-5, 2e-5], regions: vec![region] };
-        assert_eq!([5e-6, 1e-5, 1.5e-5, 3e-5].map(|d| bins.size(d)), [0, 1, 1, 2]);
+        let sorter = Sorter::new(&bins);
+        assert_eq!([5e-6, 1e-5, 1.5e-5, 3e-5].map(|d| sorter.size(d)), [0, 1, 1, 2]);
         assert_eq!((bins.bounds(0), bins.bounds(2)), ((0.0, 1e-5), (2e-5, f64::INFINITY)));
-        assert_eq!((bins.region([0.5; 3]), bins.region([2.0; 3])), (0, 1));
+        assert_eq!((sorter.region([0.5; 3]), sorter.region([2.0; 3])), (0, 1));
     }
 }

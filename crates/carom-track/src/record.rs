@@ -1,5 +1,8 @@
 //! What a run tells as it goes.
 
+pub(crate) mod columns;
+pub(crate) mod text;
+
 use crate::tracker::Particle;
 use crate::vector::Vec3;
 use carom::removal::Mode;
@@ -60,6 +63,25 @@ pub enum Event {
 }
 
 impl Event {
+    /// All of them.
+    pub const ALL: [Self; 8] = [
+        Self::Rebound,
+        Self::Capture,
+        Self::Settle,
+        Self::Trap,
+        Self::Escape,
+        Self::Remove(Mode::Rolling),
+        Self::Remove(Mode::Sliding),
+        Self::Remove(Mode::Lifting),
+    ];
+
+    /// Its place among [`Event::ALL`].
+    pub(crate) fn index(self) -> u32 {
+        let place = Self::ALL.iter().position(|event| *event == self);
+        debug_assert!(place.is_some(), "{self:?} is not among all events");
+        place.map_or(columns::NO_WORD, |place| place as u32)
+    }
+
     /// The word in results.
     pub fn name(self) -> &'static str {
         match self {
@@ -88,6 +110,8 @@ pub struct ImpactRecord {
     pub normal: Vec3,
     /// Index of the wall.
     pub wall: usize,
+    /// The wall's face in the order of its file, where it is made of triangles.
+    pub face: Option<u32>,
     /// Diameter, m.
     pub diameter: f64,
     /// Real particles it stands for.

@@ -1,35 +1,61 @@
-//! A run: blocks of particles over threads, rows in order to disk, a checkpoint after each block.
+//! A run: blocks of particles over threads, rows in order to disk, a checkpoint every few seconds.
 //!
 //! The results are the same bits for any number of threads, any division into shards that are merged again, and any number
 //! of interruptions: blocks are tracked independently, written in the order of their numbers, and masses are summed
 //! without rounding.
 
-mod files;
+mod checkpoint;
+mod disk;
+mod groups;
 mod merge;
+mod output;
 mod pool;
-mod vtk;
+pub(crate) mod spill;
+mod stream;
+mod vtp;
 
 pub use merge::merge;
 
-use crate::block;
+use crate::block::{self, Recording};
 use crate::case::Case;
 use crate::summary::Summary;
-use files::{Output, State};
+use checkpoint::State;
+use disk::{Disk, Machine};
+use output::{Found, Output};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 /// How to run a case.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct RunOptions {
     /// Threads; 0 for as many as the machine has.
     pub threads: usize,
     /// Where to put `summary.json`, the tables of impacts, fates, deposition and trajectories, and VTK files; nothing is
-    /// written without.
+    /// written without. A run that is there already is left alone.
     pub out: Option<PathBuf>,
-    /// Go on where an interrupted run in `out` stopped.
+    /// Go on where an interrupted run in `out` stopped; from the beginning where nothing was written yet.
     pub resume: bool,
+    /// Take away a run that is in `out`.
+    pub force: bool,
     /// Only a part of the run.
     pub shard: Option<Shard>,
+    /// How much time an interruption may cost: what is written is put on disk as often, or less often where that would take
+    /// more than a twentieth of the time.
+    pub checkpoint_every: Duration,
+}
+
+impl Default for RunOptions {
+    fn default() -> Self {
+        Self {
+            threads: 0,
+            out: None,
+            resume: false,
+            force: false,
+            shard: None,
+            checkpoint_every: Duration::from_secs(3),
+        }
+    }
 }
 
 /// The part `index` (from 1) of `of` parts.
@@ -64,6 +90,9 @@ impl std::str::FromStr for Shard {
 pub trait Progress: Sync {
     /// So many particles of so many have ended.
     fn particles(&self, done: u64, all: u64);
+
+    /// Something to know about the run.
+    fn note(&self, _: &str) {}
 }
 
 /// Listens to nothing.
@@ -79,7 +108,7 @@ impl Progress for Silent {
 #[non_exhaustive]
 pub enum RunError {
     /// A file could not be read or written.
-    #[error("{path}: {source}")]
+    #[error("{}: {source}", path.display())]
     Io {
         /// Which.
         path: PathBuf,
@@ -87,17 +116,54 @@ pub enum RunError {
         source: std::io::Error,
     },
     /// What is in the folder does not belong to this run.
-    #[error("{path}: {message}")]
+    #[error("{}: {message}", path.display())]
     Foreign {
         /// Which file.
         path: PathBuf,
         /// What is wrong, and what would be right.
         message: String,
     },
+    /// A stream could not be read or written.
+    #[error(transparent)]
+    Stream(#[from] std::io::Error),
+    /// Another run is at work in the folder.
+    #[error("{}: another run is at work in it: wait for its end, or name another folder", folder.display())]
+    Busy {
+        /// Which.
+        folder: PathBuf,
+    },
+    /// There are results in the folder.
+    #[error("{}: holds {what}: go on with it with --resume, replace it with --force, or name another folder", folder.display())]
+    Occupied {
+        /// Which.
+        folder: PathBuf,
+        /// What is there.
+        what: String,
+    },
+    /// A file was taken away, or another put in its place, while the run was writing it.
+    #[error("{}: removed or replaced while the run was writing it", path.display())]
+    Gone {
+        /// Which.
+        path: PathBuf,
+    },
+    /// The program failed: a fault in it.
+    #[error("a fault in carom, at particles {} to {}: {message}", .particles.start, .particles.end.saturating_sub(1))]
+    Panic {
+        /// What was being tracked.
+        particles: Range<u64>,
+        /// What it said.
+        message: String,
+    },
+    /// JSON could not be written.
+    #[error("JSON: {0}")]
+    Json(serde_json::Error),
+    /// CSV could not be written.
+    #[error("CSV: {0}")]
+    Csv(csv::Error),
     /// Resuming needs a folder.
     #[error("nothing to resume: an interrupted run is found by its output folder, give --out")]
     NoFolder,
-    /// What a table holds could not be turned into Parquet.
+    /// A table could not be read or written.
     #[error(transparent)]
     Table(#[from] carom_table::TableError),
     /// A part that is not among those to be merged.
@@ -119,20 +185,36 @@ pub enum RunError {
 }
 
 impl RunError {
-    fn io(path: &Path) -> impl Fn(std::io::Error) -> Self + '_ {
+    pub(crate) fn io(path: &Path) -> impl Fn(std::io::Error) -> Self + '_ {
         move |source| Self::Io { path: path.to_owned(), source }
     }
 
-    fn foreign(path: impl Into<PathBuf>, message: impl Into<String>) -> Self {
+    pub(crate) fn foreign(path: impl Into<PathBuf>, message: impl Into<String>) -> Self {
         Self::Foreign { path: path.into(), message: message.into() }
     }
 }
 
+/// Bytes of rows that all blocks under way may hold together, about; beyond, rows are put aside on disk until their turn.
+const HELD: usize = 256 << 20;
+
 /// Runs a case to its end.
 ///
+/// Memory stays below 1 GiB whatever the particles do, besides the case itself.
+///
 /// # Errors
-/// What could not be read or written, and resuming a run that is not this one.
+/// What could not be read or written, a folder that holds a run or in which one is at work, and resuming a run that is not
+/// this one.
 pub fn run(case: &Case, options: &RunOptions, progress: &dyn Progress) -> Result<Summary, RunError> {
+    run_on(case, options, progress, &Machine, HELD)
+}
+
+fn run_on(
+    case: &Case,
+    options: &RunOptions,
+    progress: &dyn Progress,
+    disk: &dyn Disk,
+    held: usize,
+) -> Result<Summary, RunError> {
     let shard = options.shard.unwrap_or(Shard { index: 1, of: 1 });
     if shard.index < 1 || shard.index > shard.of {
         return Err(RunError::Shard { index: shard.index, of: shard.of });
@@ -142,32 +224,41 @@ pub fn run(case: &Case, options: &RunOptions, progress: &dyn Progress) -> Result
     }
     let count = case.count();
     let blocks = shard.blocks(count.div_ceil(block::SIZE));
-    let fresh = State::new(case, options.shard, blocks.clone());
-    let mut output = match &options.out {
-        Some(folder) => Some(Output::open(folder, fresh.clone(), options.resume)?),
-        None => None,
+    let particles = (blocks.start * block::SIZE).min(count)..blocks.end.saturating_mul(block::SIZE).min(count);
+    let fresh = State::new(case, options.shard, particles.clone());
+    let found = match (options.resume, options.force) {
+        (true, _) => Found::Resume,
+        (false, true) => Found::Replace,
+        (false, false) => Found::Keep,
     };
-    let wanted = output.as_ref().map_or_else(Default::default, |o| o.state.wanted());
-    let mut summary = output.as_ref().map_or(fresh.summary, |o| o.state.summary.clone());
-    let next = output.as_ref().map_or(blocks.start, |o| o.state.next);
-    let numbers = |b: u64| b * block::SIZE..((b + 1) * block::SIZE).min(count);
-    let first = blocks.start * block::SIZE;
-    let all = (blocks.end * block::SIZE).min(count).saturating_sub(first);
-    progress.particles((next * block::SIZE).min(count) - first.min(count), all);
+    let mut summary = fresh.summary.clone();
+    let open = |folder: &PathBuf| {
+        let note = |text: &str| progress.note(text);
+        Output::open(folder, fresh, found, options.checkpoint_every, &note, disk)
+    };
+    let mut output = options.out.as_ref().map(open).transpose()?;
+    let next = output.as_ref().map_or(particles.start, |o| o.state.next);
+    let threads = threads(options.threads);
+    let forms = output.as_ref().map_or_else(Default::default, |o| output::forms(&o.state));
+    let most = (held / (pool::AHEAD * threads)).max(1 << 16);
+    let recording = Recording::new(case, forms, options.out.clone().unwrap_or_default(), most);
+    let all = particles.end - particles.start;
+    progress.particles(next - particles.start, all);
     pool::in_order(
-        threads(options.threads),
-        next..blocks.end,
-        |b| block::track(case, numbers(b), wanted),
-        |b, done| {
-            summary.merge(&done.summary);
-            if let Some(output) = &mut output {
-                output.append(b, &done)?;
+        threads,
+        next..particles.end,
+        |numbers| recording.track(numbers),
+        |numbers, done| {
+            match &mut output {
+                Some(output) => output.append(numbers.end, done, &recording)?,
+                None => summary.merge(&done.summary),
             }
-            progress.particles(numbers(b).end - first, all);
+            progress.particles(numbers.end - particles.start, all);
             Ok(())
         },
     )?;
     if let Some(output) = output {
+        summary = output.state.summary.clone();
         output.finish()?;
     }
     Ok(summary)

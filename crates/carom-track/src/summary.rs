@@ -1,12 +1,15 @@
 //! What a run came to: counts, and masses summed without rounding.
 
-use crate::deposition::{Bins, Deposition};
+use crate::deposition::{Bins, Cell, Deposition, Faces, Sorter};
 use crate::exact_sum::ExactSum;
 use crate::record::{End, Event, Fate, ImpactRecord};
 use carom::removal::Mode;
 use carom::validity::CODES;
 use serde::Serialize;
 use serde::ser::SerializeMap;
+
+/// How many fates there are.
+const FATES: usize = Fate::ALL.len();
 
 /// How many, and how much of it, kg.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, serde::Deserialize)]
@@ -39,7 +42,7 @@ pub struct WallTally {
     /// Rebounds from it.
     pub rebounds: u64,
     /// Ends at it, by fate in the order of [`Fate::ALL`].
-    pub ends: [Amount; 6],
+    pub ends: [Amount; FATES],
     /// How many the flow took off it again by rolling, sliding and lifting.
     pub removed: [u64; 3],
     /// Impacts whose outcome carried each validity code, in the order of [`CODES`].
@@ -54,11 +57,13 @@ pub struct Summary {
     /// All that was injected.
     pub injected: Amount,
     /// By fate, in the order of [`Fate::ALL`].
-    pub fates: [Amount; 6],
+    pub fates: [Amount; FATES],
     /// By wall.
     pub walls: Vec<WallTally>,
     /// What walls kept, by region and size bin.
     pub deposition: Deposition,
+    /// What happened on the faces of walls made of triangles.
+    pub faces: Faces,
     /// Particles left where they were because their steps ran out; they count as airborne.
     pub stalled: u64,
 }
@@ -67,8 +72,12 @@ impl Summary {
     /// Nothing yet.
     pub fn new(title: &str, walls: impl Iterator<Item = String>, bins: &Bins) -> Self {
         let walls: Vec<_> = walls.map(|name| WallTally { name, ..WallTally::default() }).collect();
-        let deposition = Deposition::new(bins, walls.len());
-        Self { title: title.to_owned(), walls, deposition, ..Self::default() }
+        Self { title: title.to_owned(), walls, deposition: Deposition::new(bins), ..Self::default() }
+    }
+
+    /// Nothing yet of a part, to be added to a whole that knows the names.
+    pub(crate) fn part(walls: usize, bins: &Bins) -> Self {
+        Self { walls: vec![WallTally::default(); walls], deposition: Deposition::new(bins), ..Self::default() }
     }
 
     /// How many ended that way.
@@ -78,7 +87,9 @@ impl Summary {
 
     /// Particles without a fate: always 0.
     pub fn lost(&self) -> u64 {
-        self.injected.count - self.fates.iter().map(|f| f.count).sum::<u64>().min(self.injected.count)
+        let ended = self.fates.iter().map(|f| f.count).sum::<u64>();
+        debug_assert!(ended <= self.injected.count, "more ends than starts");
+        self.injected.count.saturating_sub(ended)
     }
 
     /// The validity codes that impacts carried, and how many did.
@@ -90,7 +101,8 @@ impl Summary {
         self.injected.add(mass);
     }
 
-    pub(crate) fn impact(&mut self, impact: &ImpactRecord) {
+    pub(crate) fn impact(&mut self, impact: &ImpactRecord, mass: f64) {
+        self.faces.impact(impact, mass);
         if let Some(wall) = self.walls.get_mut(impact.wall) {
             wall.impacts += 1;
             wall.rebounds += u64::from(impact.event == Event::Rebound);
@@ -105,13 +117,14 @@ impl Summary {
         }
     }
 
-    pub(crate) fn end(&mut self, end: &End, bins: &Bins) {
-        self.deposition.add(bins, end);
+    /// Counts an end; its deposit's cell, if it left one, is the caller's to keep.
+    pub(crate) fn end(&mut self, end: &End, sorter: &Sorter) -> Option<(Cell, f64)> {
         let mass = end.particle.mass();
         self.fates[end.fate as usize].add(mass);
         if let Some(wall) = end.wall.and_then(|w| self.walls.get_mut(w)) {
             wall.ends[end.fate as usize].add(mass);
         }
+        self.deposition.end(sorter, end)
     }
 
     /// Adds another part.
@@ -130,13 +143,16 @@ impl Summary {
             a.doubts.iter_mut().zip(b.doubts).for_each(|(a, b)| *a += b);
         }
         self.deposition.merge(&other.deposition);
+        self.faces.merge(&other.faces);
         self.stalled += other.stalled;
     }
 
     /// The text of `summary.json`.
-    pub fn to_json(&self) -> String {
-        // numbers and names only: nothing here can fail to be written
-        serde_json::to_string_pretty(&Report(self)).unwrap_or_default() + "\n"
+    ///
+    /// # Errors
+    /// What the writer says.
+    pub fn to_json(&self) -> Result<String, serde_json::Error> {
+        Ok(serde_json::to_string_pretty(&Report(self))? + "\n")
     }
 }
 
@@ -147,7 +163,7 @@ fn counted(counts: impl Iterator<Item = u64>) -> impl Iterator<Item = (&'static 
 
 struct Report<'a>(&'a Summary);
 struct Fates<'a>(&'a Summary);
-struct Masses<'a>(&'a [Amount; 6]);
+struct Masses<'a>(&'a [Amount; FATES]);
 struct Walls<'a>(&'a [WallTally]);
 struct One<'a>(&'a WallTally);
 struct Modes([u64; 3]);

@@ -1,6 +1,11 @@
-//! The tables a run writes: their names, columns and formats.
+//! The tables a run makes: their names and columns, what a record becomes in them, and their rows as text.
 
+use crate::record::columns::{Column, Columns, Kind as Cells, NO_WORD};
+use crate::record::text::{Rows, quoted};
+use crate::record::{End, Event, Fate, ImpactRecord};
+use carom::validity::CODES;
 use carom_table::{Field, Kind, Schema};
+use std::borrow::Cow;
 
 /// The file format of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -22,11 +27,46 @@ impl TableFormat {
     }
 }
 
+/// What a column holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum What {
+    Count,
+    Float,
+    /// A wall's name, by its index.
+    Wall,
+    /// An injection's name, by its index.
+    Injection,
+    /// The word of an [`Event`], by its place among all.
+    Event,
+    /// The word of a [`Fate`], by its place among all.
+    Fate,
+    /// Validity codes, by their bits.
+    Validity,
+}
+
+impl What {
+    fn cells(self) -> Cells {
+        match self {
+            Self::Count => Cells::Count,
+            Self::Float => Cells::Float,
+            _ => Cells::Word,
+        }
+    }
+
+    fn kind(self) -> Kind {
+        match self {
+            Self::Count => Kind::Count,
+            Self::Float => Kind::Float,
+            _ => Kind::Text,
+        }
+    }
+}
+
 /// A table: the first part of its file's name, and its columns with their units.
 #[derive(Debug)]
 pub(crate) struct Layout {
     pub stem: &'static str,
-    columns: &'static [(&'static str, &'static str, Kind)],
+    pub columns: &'static [(&'static str, &'static str, What)],
 }
 
 impl Layout {
@@ -38,24 +78,108 @@ impl Layout {
 
     /// The columns, typed.
     pub fn schema(&self) -> Schema {
-        self.columns.iter().map(|(name, unit, kind)| Field::new(*name, *unit, *kind)).collect()
+        self.columns.iter().map(|(name, unit, what)| Field::new(*name, *unit, what.kind())).collect()
     }
 
     /// The file's name.
     pub fn file(&self, format: TableFormat) -> String {
         format!("{}.{}", self.stem, format.extension())
     }
+
+    /// Columns without rows.
+    pub fn empty(&self) -> Columns {
+        Columns::new(self.columns.iter().map(|(_, _, what)| what.cells()))
+    }
+}
+
+/// The names that codes of walls and injections stand for.
+#[derive(Clone, Debug)]
+pub(crate) struct Words {
+    walls: Vec<String>,
+    injections: Vec<String>,
+}
+
+impl Words {
+    pub fn new(walls: impl Iterator<Item = String>, injections: impl Iterator<Item = String>) -> Self {
+        Self { walls: walls.collect(), injections: injections.collect() }
+    }
+
+    /// The word of a code; empty for none.
+    pub fn text(&self, what: What, code: u32) -> Cow<'_, str> {
+        let place = code as usize;
+        match what {
+            What::Wall => Cow::Borrowed(self.walls.get(place).map_or("", String::as_str)),
+            What::Injection => Cow::Borrowed(self.injections.get(place).map_or("", String::as_str)),
+            What::Event => Cow::Borrowed(Event::ALL.get(place).map_or("", |e| e.name())),
+            What::Fate => Cow::Borrowed(Fate::ALL.get(place).map_or("", |f| f.name())),
+            What::Validity => {
+                let codes = CODES.iter().filter(|(_, v, _)| code & v.bits() == v.bits()).map(|(word, _, _)| *word);
+                Cow::Owned(codes.collect::<Vec<_>>().join(" "))
+            }
+            What::Count | What::Float => Cow::Borrowed(""),
+        }
+    }
+
+    /// Rows as CSV, without a header.
+    pub fn to_csv(&self, layout: &Layout, columns: &Columns) -> Vec<u8> {
+        let mut rows = Rows::default();
+        // names of walls and injections come again and again: made safe once
+        let safe = |names: &[String]| names.iter().map(|name| quoted(name)).collect::<Vec<_>>();
+        let (walls, injections) = (safe(&self.walls), safe(&self.injections));
+        for row in 0..columns.rows() {
+            for (column, (_, _, what)) in columns.columns().iter().zip(layout.columns) {
+                match (column, what) {
+                    (Column::Count(v), _) => rows.count(v[row]),
+                    (Column::Float(v), _) => rows.float(v[row]),
+                    (Column::Word(v), What::Wall) => rows.word(walls.get(v[row] as usize).map_or("", String::as_str)),
+                    (Column::Word(v), What::Injection) => {
+                        rows.word(injections.get(v[row] as usize).map_or("", String::as_str));
+                    }
+                    (Column::Word(v), What::Validity) if v[row] == 0 => rows.word(""),
+                    (Column::Word(v), what) => rows.word(&self.text(*what, v[row])),
+                }
+            }
+            rows.end();
+        }
+        rows.into_bytes()
+    }
+}
+
+/// Appends an impact.
+pub(crate) fn push_impact(columns: &mut Columns, i: &ImpactRecord) {
+    let mut row = columns.row();
+    row.count(i.particle).float(i.time).vector(i.position).word(i.wall as u32);
+    row.floats([i.diameter, i.normal_speed_in, i.tangential_speed_in, i.spin_in, i.restitution, i.impulse_ratio]);
+    row.word(i.event.index()).floats([i.normal_speed_out, i.tangential_speed_out, i.spin_out, i.weight]);
+    row.vector(i.normal).floats(i.energy.named().map(|(_, share)| share)).word(i.validity.bits()).end();
+}
+
+/// Appends an end; `impacts` is how many the particle had.
+pub(crate) fn push_end(columns: &mut Columns, e: &End, impacts: u64) {
+    let p = &e.particle;
+    let wall = e.wall.map_or(NO_WORD, |w| w as u32);
+    let mut row = columns.row();
+    row.count(p.number).word(p.injection as u32).word(e.fate as u32).word(wall).float(e.time);
+    row.vector(e.position).vector(e.velocity).floats([p.diameter, p.weight, p.mass()]).count(impacts).end();
+}
+
+/// Appends what a wall kept.
+pub(crate) fn push_deposit(columns: &mut Columns, i: &ImpactRecord) {
+    let mut row = columns.row();
+    row.count(i.particle).float(i.time).vector(i.position);
+    row.floats([i.diameter, i.normal_speed_in, i.tangential_speed_in, i.weight]).end();
 }
 
 /// Indices into [`LAYOUTS`].
 pub(crate) const IMPACTS: usize = 0;
 pub(crate) const FATES: usize = 1;
 pub(crate) const TRAJECTORIES: usize = 2;
+pub(crate) const DEPOSIT: usize = 3;
 
-use Kind::{Count, Float, Text};
+use What::{Count, Float};
 
-/// Every table of a run.
-pub(crate) const LAYOUTS: [Layout; 3] = [
+/// Every table of a run. The last is no file of its own: `deposit.vtp` is made of it.
+pub(crate) const LAYOUTS: [Layout; 4] = [
     Layout {
         stem: "impacts",
         columns: &[
@@ -64,14 +188,14 @@ pub(crate) const LAYOUTS: [Layout; 3] = [
             ("x", "m", Float),
             ("y", "m", Float),
             ("z", "m", Float),
-            ("wall", "", Text),
+            ("wall", "", What::Wall),
             ("diameter", "m", Float),
             ("normal_speed_in", "m/s", Float),
             ("tangential_speed_in", "m/s", Float),
             ("spin_in", "rad/s", Float),
             ("restitution", "", Float),
             ("impulse_ratio", "", Float),
-            ("fate", "", Text),
+            ("fate", "", What::Event),
             ("normal_speed_out", "m/s", Float),
             ("tangential_speed_out", "m/s", Float),
             ("spin_out", "rad/s", Float),
@@ -87,20 +211,23 @@ pub(crate) const LAYOUTS: [Layout; 3] = [
             ("friction", "", Float),
             ("captured", "", Float),
             ("kept", "", Float),
-            ("validity", "", Text),
+            ("validity", "", What::Validity),
         ],
     },
     Layout {
         stem: "fates",
         columns: &[
             ("particle", "", Count),
-            ("injection", "", Text),
-            ("fate", "", Text),
-            ("wall", "", Text),
+            ("injection", "", What::Injection),
+            ("fate", "", What::Fate),
+            ("wall", "", What::Wall),
             ("time", "s", Float),
             ("x", "m", Float),
             ("y", "m", Float),
             ("z", "m", Float),
+            ("vx", "m/s", Float),
+            ("vy", "m/s", Float),
+            ("vz", "m/s", Float),
             ("diameter", "m", Float),
             ("weight", "", Float),
             ("mass", "kg", Float),
@@ -123,4 +250,36 @@ pub(crate) const LAYOUTS: [Layout; 3] = [
             ("spin_z", "rad/s", Float),
         ],
     },
+    Layout {
+        stem: "deposit",
+        columns: &[
+            ("particle", "", Count),
+            ("time", "s", Float),
+            ("x", "m", Float),
+            ("y", "m", Float),
+            ("z", "m", Float),
+            ("diameter", "m", Float),
+            ("normal_speed_in", "m/s", Float),
+            ("tangential_speed_in", "m/s", Float),
+            ("weight", "", Float),
+        ],
+    },
 ];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn headers_are_those_of_the_contract() {
+        let names: Vec<String> = LAYOUTS[IMPACTS].schema().into_iter().map(|f| f.name).collect();
+        assert_eq!(names.len(), 10 + 10 + 8 + 1);
+        let energies = carom::Energy::default().named().map(|(name, _)| name);
+        assert_eq!(names[20..28], energies);
+        assert_eq!(LAYOUTS[TRAJECTORIES].schema().len(), 11);
+        let fates = "particle,injection,fate,wall,time,x,y,z,vx,vy,vz,diameter,weight,mass,impacts\n";
+        assert_eq!(LAYOUTS[FATES].header(), fates);
+        assert!(Fate::ALL.iter().enumerate().all(|(i, f)| *f as usize == i));
+        assert!(Event::ALL.iter().enumerate().all(|(i, e)| e.index() as usize == i));
+    }
+}

@@ -4,6 +4,7 @@ use carom::material::Library;
 use carom_track::{Case, RunOptions, Silent, run};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::time::Duration;
 
 const CHILD: &str = "CAROM_TRACK_CHILD";
 
@@ -38,11 +39,11 @@ fn case() -> Case {
 }
 
 fn options(out: PathBuf, resume: bool) -> RunOptions {
-    RunOptions { threads: 2, out: Some(out), resume, shard: None }
+    RunOptions { threads: 2, out: Some(out), resume, checkpoint_every: Duration::ZERO, ..RunOptions::default() }
 }
 
-/// The first block not yet written, from the checkpoint of a run under way; 0 where there is none.
-fn next_block(folder: &Path) -> u64 {
+/// The first particle not yet on disk, from the checkpoint of a run under way; 0 where there is none.
+fn next_particle(folder: &Path) -> u64 {
     let text = std::fs::read_to_string(folder.join("checkpoint.json")).unwrap_or_default();
     serde_json::from_str::<serde_json::Value>(&text).ok().and_then(|v| v["next"].as_u64()).unwrap_or(0)
 }
@@ -71,10 +72,10 @@ fn killed_and_resumed_is_as_never_killed() {
             .expect("a child")
     };
     let mut kills = 0;
-    for wanted in [1, 3, 4, 7, 9] {
+    for wanted in [1000, 3000, 4000, 7000, 9000] {
         let mut child = start();
-        // as soon as that many blocks are on disk, at whatever point the process then is
-        while next_block(&killed) < wanted && child.try_wait().expect("a state").is_none() {
+        // as soon as that many particles are on disk, at whatever point the process then is
+        while next_particle(&killed) < wanted && child.try_wait().expect("a state").is_none() {
             std::thread::yield_now();
         }
         kills += u32::from(child.try_wait().expect("a state").is_none());

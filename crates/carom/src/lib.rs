@@ -22,6 +22,9 @@
 //! sources in [`material`]; rough walls that scatter in
 //! [`scatter`]; what removes a captured sphere in [`removal`]; what a result's doubts mean in [`validity`]. SI units throughout; angles from the surface.
 
+// what depends on the platform is on no way to a result (clippy.toml)
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+
 pub mod batch;
 pub mod error;
 pub mod impact;

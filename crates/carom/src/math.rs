@@ -26,6 +26,45 @@ pub fn floor(x: f64) -> f64 {
     x.floor()
 }
 
+/// ∛x, correctly rounded.
+///
+/// ```
+/// assert_eq!(carom::math::cbrt(-27.0), -3.0);
+/// ```
+pub fn cbrt(x: f64) -> f64 {
+    libm::cbrt(x)
+}
+
+/// Angle in radians, (−π, π], of the direction (`x`, `y`), to less than one unit in the last place.
+///
+/// ```
+/// assert_eq!(carom::math::atan2(1.0, 0.0), std::f64::consts::FRAC_PI_2);
+/// ```
+pub fn atan2(y: f64, x: f64) -> f64 {
+    libm::atan2(y, x)
+}
+
+/// xⁿ by repeated squaring, in a fixed order; exact where all products are. A negative power is the inverse of the positive one.
+///
+/// ```
+/// assert_eq!(carom::math::powi(2.0, -1022), f64::MIN_POSITIVE);
+/// assert_eq!(carom::math::powi(10.0, 3), 1000.0);
+/// ```
+pub fn powi(x: f64, n: i32) -> f64 {
+    let (mut result, mut square, mut left) = (1.0, x, n.unsigned_abs());
+    loop {
+        if left & 1 == 1 {
+            result *= square;
+        }
+        left >>= 1;
+        if left == 0 {
+            break;
+        }
+        square *= square;
+    }
+    if n < 0 { 1.0 / result } else { result }
+}
+
 /// Natural logarithm of a positive, finite, normal number.
 ///
 /// Outside that domain (zero, negative, subnormal, infinite, NaN) the value is unspecified but the call is safe:

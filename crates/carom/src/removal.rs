@@ -41,8 +41,8 @@
 //! ```
 
 use crate::impact::ImpactError;
+use crate::math::cbrt;
 use crate::wall::WallLaw;
-use libm::cbrt;
 use std::f64::consts::PI;
 
 /// Drag near the wall over Stokes' (O'Neill 1968).

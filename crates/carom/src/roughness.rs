@@ -21,6 +21,8 @@
 
 pub mod fuller_tabor;
 
+use crate::math;
+
 /// Which way C_R follows from a roughness.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RoughnessModel {
@@ -79,7 +81,7 @@ pub struct AdhesionNumbers {
 
 /// Tabor's parameter and the adhesion parameter of a contact: effective radius r (m), w (J/m²), E* (Pa), z₀ (m), σ_r (m).
 pub fn adhesion_numbers(r: f64, w: f64, e_star: f64, spacing: f64, roughness: Option<f64>) -> AdhesionNumbers {
-    let tabor = (r * (w / e_star) * (w / e_star) / (spacing * spacing * spacing)).cbrt();
+    let tabor = math::cbrt(r * (w / e_star) * (w / e_star) / (spacing * spacing * spacing));
     let regime = if tabor > 5.0 {
         Regime::Jkr
     } else if tabor < 0.1 {

@@ -6,7 +6,7 @@ use std::path::Path;
 
 /// FNV-1a: enough to tell an edited case from the one that was interrupted.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Fingerprint(u64);
+pub(crate) struct Fingerprint(u64);
 
 impl Fingerprint {
     pub fn of(text: &str) -> Self {

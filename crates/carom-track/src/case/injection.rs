@@ -154,7 +154,7 @@ fn sizes(at: &At<SizeText>) -> Result<(Sizes, f64), SpecError> {
     match (&text.lognormal, &text.rosin_rammler, &text.table) {
         (Some(l), None, None) => {
             let sizes = Sizes::Lognormal { median: l.median.0, gsd: l.gsd, by: by(By::Number)? };
-            Ok((sizes, l.median.0 * l.gsd.powi(5)))
+            Ok((sizes, l.median.0 * carom::math::powi(l.gsd, 5)))
         }
         (None, Some(r), None) => {
             let sizes =
@@ -203,7 +203,7 @@ pub(super) fn hull(source: &Source) -> Vec<[f64; 3]> {
             // a square around the disc would reach further than it does: points on its rim, close together
             (0..360)
                 .map(|i| {
-                    let (s, c) = f64::from(i).to_radians().sin_cos();
+                    let (s, c) = carom::math::sin_cos(f64::from(i).to_radians());
                     add(*centre, add(scale(t, radius * c), scale(b, radius * s)))
                 })
                 .collect()

@@ -85,10 +85,13 @@ fn threads_shards_and_order_leave_no_trace() {
         }
         let mut reversed = folders.clone();
         reversed.reverse();
-        assert_eq!(merge(&reversed, &at(&format!("merged-{of}"))).unwrap().0, whole);
+        assert_eq!(merge(&reversed, &at(&format!("merged-{of}")), false).unwrap().0, whole);
         assert_eq!(files(&at("one")), files(&at(&format!("merged-{of}"))));
         assert!(
-            merge(&folders[1..], &at("missing")).unwrap_err().to_string().contains(&format!("shard 1/{of} is missing"))
+            merge(&folders[1..], &at("missing"), false)
+                .unwrap_err()
+                .to_string()
+                .contains(&format!("shard 1/{of} is missing"))
         );
     }
 }
@@ -116,7 +119,7 @@ fn nothing_is_lost_and_nothing_invented() {
         .map(|f| json["fates"][f].as_u64().unwrap())
         .sum();
     assert_eq!(named, 5000);
-    let kept: u64 = s.deposition.kept.iter().flatten().flatten().map(|a| a.count).sum();
+    let kept: u64 = s.deposition.kept().map(|(_, a)| a.count).sum();
     assert_eq!(kept, s.count(crate::record::Fate::Captured) + s.count(crate::record::Fate::Trapped));
     assert_eq!(s.deposition.injected.iter().map(|a| a.count).sum::<u64>(), 5000);
     let mut rows = csv::Reader::from_path(folder.path().join("impacts.csv")).unwrap();
@@ -147,17 +150,15 @@ fn resuming_drops_torn_rows_and_goes_on() {
     let (whole, torn) = (folder.path().join("whole"), folder.path().join("torn"));
     let case = case();
     run(&case, &options(&whole, 1), &Silent).unwrap();
-    run(&case, &options(&torn, 1), &Silent).unwrap();
-    // as if killed: the checkpoint of an earlier block, and half a row more than it knows of
-    let mut state = State::new(&case, None, 0..5);
-    state.lengths = LAYOUTS.each_ref().map(|l| l.header().len() as u64);
-    for b in 0..2 {
-        let block = block::track(&case, b * block::SIZE..(b + 1) * block::SIZE, [true; 3]);
-        state.summary.merge(&block.summary);
-        state.lengths.iter_mut().zip(&block.rows).for_each(|(length, rows)| *length += rows.len() as u64);
+    let often = RunOptions { checkpoint_every: Duration::ZERO, ..options(&torn, 1) };
+    run_on(&case, &often, &Silent, &power::Unplugged::after(60, &torn), HELD).unwrap_err();
+    let state = State::read(&torn).unwrap().unwrap();
+    assert!(state.next > 0 && state.next < 5000, "{}", state.next);
+    // half a row more than the checkpoint knows of
+    for name in state.files.keys() {
+        let mut file = fs::OpenOptions::new().append(true).open(torn.join(name)).unwrap();
+        std::io::Write::write_all(&mut file, b"12,0.5,\"half").unwrap();
     }
-    state.next = 2;
-    fs::write(torn.join(files::CHECKPOINT), serde_json::to_string(&state).unwrap()).unwrap();
     let done = AtomicU64::new(0);
     run(&case, &RunOptions { resume: true, ..options(&torn, 2) }, &StopAfter(&done)).unwrap();
     assert_eq!(files(&whole), files(&torn));
@@ -216,9 +217,6 @@ fn parquet_holds_what_csv_would_whole_merged_and_resumed() {
     let at = |name: &str| folder.path().join(name);
     run(&case(), &options(&at("csv"), 2), &Silent).unwrap();
     let case = case_with("impacts = \"parquet\"\nfates = \"parquet\"");
-    // an earlier run's table of the other format would be mistaken for this one's
-    fs::create_dir_all(at("parquet")).unwrap();
-    fs::write(at("parquet").join("impacts.parquet"), "old").unwrap();
     run(&case, &options(&at("parquet"), 1), &Silent).unwrap();
     for (layout, stem) in [(crate::tables::IMPACTS, "impacts"), (crate::tables::FATES, "fates")] {
         let csv = table(&at("csv").join(format!("{stem}.csv")), layout);
@@ -230,23 +228,22 @@ fn parquet_holds_what_csv_would_whole_merged_and_resumed() {
     let folders: Vec<PathBuf> = (1..=3).map(|i| at(&format!("{i}-3"))).collect();
     for (i, out) in (1..).zip(&folders) {
         run(&case, &RunOptions { shard: Some(Shard { index: i, of: 3 }), ..options(out, 2) }, &Silent).unwrap();
-        assert!(out.join("impacts.csv").exists());
+        assert!(out.join("impacts.parquet").exists());
     }
-    merge(&folders, &at("merged")).unwrap();
+    merge(&folders, &at("merged"), false).unwrap();
     assert!(whole == files(&at("merged")));
     let only = RunOptions { shard: Some(Shard { index: 1, of: 1 }), ..options(&at("only"), 2) };
     run(&case, &only, &Silent).unwrap();
-    merge(&[at("only")], &at("again")).unwrap();
+    merge(&[at("only")], &at("again"), false).unwrap();
     assert!(whole == files(&at("again")));
-    assert!(merge(&[at("parquet")], &at("never")).unwrap_err().to_string().contains("whole run"));
-    // resumed when done, and when the end was reached but the tables not yet converted
+    assert!(merge(&[at("parquet")], &at("never"), false).unwrap_err().to_string().contains("whole run"));
+    // resumed when done: nothing changes, and what was damaged since is told
     let resume = RunOptions { resume: true, ..options(&at("parquet"), 2) };
     run(&case, &resume, &Silent).unwrap();
     assert!(whole == files(&at("parquet")));
-    fs::copy(at("csv").join("impacts.csv"), at("parquet").join("impacts.csv")).unwrap();
     fs::write(at("parquet").join("impacts.parquet"), "torn").unwrap();
-    run(&case, &resume, &Silent).unwrap();
-    assert!(whole == files(&at("parquet")));
+    let error = run(&case, &resume, &Silent).unwrap_err().to_string();
+    assert!(error.contains("impacts.parquet: 4 bytes where the checkpoint says"), "{error}");
 }
 
 #[test]
@@ -260,8 +257,8 @@ fn fates_are_told_particle_by_particle() {
         assert_eq!(row[0].parse(), Ok(particle));
         assert_eq!(&row[1], if particle < 3000 { "fine" } else { "coarse" });
         assert_eq!(row[3].is_empty(), &row[2] == "airborne");
-        mass.add(row[10].parse().unwrap());
-        impacts += row[11].parse::<u64>().unwrap();
+        mass.add(row[13].parse().unwrap());
+        impacts += row[14].parse::<u64>().unwrap();
         captured += u64::from(&row[2] == "captured");
         particle += 1;
     }
@@ -275,7 +272,8 @@ fn fates_are_told_particle_by_particle() {
 fn tables_that_are_not_wanted_are_not_there() {
     let folder = tempfile::tempdir().unwrap();
     run(&case(), &options(folder.path(), 2), &Silent).unwrap();
-    run(&case_with("impacts = false\nfates = false\ntrajectories = 0"), &options(folder.path(), 2), &Silent).unwrap();
+    let none = case_with("impacts = false\nfates = false\ntrajectories = 0");
+    run(&none, &RunOptions { force: true, ..options(folder.path(), 2) }, &Silent).unwrap();
     for stem in ["impacts", "fates", "trajectories"] {
         assert!(!folder.path().join(format!("{stem}.csv")).exists(), "{stem}");
     }
@@ -299,7 +297,7 @@ fn what_is_no_set_of_shards_is_refused() {
     part("other", &case_with("impacts = false"), 2, 2);
     let refused = |names: &[&str], why: &str| {
         let folders: Vec<PathBuf> = names.iter().map(|n| at(n)).collect();
-        let error = merge(&folders, &at("out")).unwrap_err().to_string();
+        let error = merge(&folders, &at("out"), false).unwrap_err().to_string();
         assert!(error.contains(why), "{error}");
         assert!(!at("out").exists());
     };
@@ -310,9 +308,9 @@ fn what_is_no_set_of_shards_is_refused() {
     refused(&["a", "other"], "another case");
     refused(&["a", "nowhere"], "no checkpoint.json");
     refused(&[], "nothing to merge");
-    assert!(merge(&[at("a"), at("b")], &at("b")).unwrap_err().to_string().contains("into itself"));
-    let state = State { next: 3, ..State::read(&at("b")).unwrap().unwrap() };
-    state.write(&at("b")).unwrap();
+    assert!(merge(&[at("a"), at("b")], &at("b"), false).unwrap_err().to_string().contains("into itself"));
+    let state = State { finished: false, ..State::read(&at("b")).unwrap().unwrap() };
+    state.write(&Machine, &at("b")).unwrap();
     refused(&["a", "b"], "not finished");
 }
 
@@ -379,4 +377,6 @@ fn a_box_from_stl_is_the_box() {
     assert!(lost.unwrap_err().to_string().contains("bix.stl"));
 }
 
+mod folder;
+mod power;
 mod results;

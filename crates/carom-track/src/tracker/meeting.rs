@@ -204,6 +204,7 @@ fn record(lane: &Lane, time: f64, hit: &Hit, v: Vec3, spin: Vec3, after: &After)
         position: hit.meeting.position,
         normal: n,
         wall: hit.wall,
+        face: hit.face,
         diameter: lane.particle.diameter,
         weight: lane.particle.weight,
         normal_speed_in: (-up_in).max(0.0),

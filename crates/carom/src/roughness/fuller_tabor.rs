@@ -59,7 +59,7 @@ pub fn adhesion_parameter(roughness: f64, asperity_radius: f64, work_of_adhesion
 
 /// C_R at an adhesion parameter θ ≥ 0.
 pub fn factor(theta: f64) -> f64 {
-    let sigma = (theta * theta).cbrt();
+    let sigma = math::cbrt(theta * theta);
     // so narrow that the first term of the series is exact to 1e-11, and the integral would lose digits
     if theta < 1e-4 {
         return 1.0 - CURVATURE * sigma * sigma;
@@ -125,7 +125,7 @@ fn depth(a: f64) -> f64 {
 
 /// a of a depth, on the branch that has not torn.
 fn contact_radius(wanted: f64) -> f64 {
-    let mut low = (PI / 8.0).cbrt();
+    let mut low = math::cbrt(PI / 8.0);
     if wanted <= depth(low) {
         return low;
     }

@@ -22,5 +22,5 @@
 
 /// Angle from the surface (rad) below which a sphere without spin slides to the end, at a given restitution.
 pub fn critical_angle(friction: f64, restitution: f64) -> f64 {
-    2.0f64.atan2(7.0 * friction * (1.0 + restitution))
+    crate::math::atan2(2.0, 7.0 * friction * (1.0 + restitution))
 }

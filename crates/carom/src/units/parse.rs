@@ -1,6 +1,7 @@
 //! Reading `number unit·unit/unit`.
 
 use super::Dimension;
+use crate::math;
 use core::fmt;
 
 /// A text that is not the wanted quantity. `at` is the character (0-based) where reading stopped.
@@ -145,7 +146,7 @@ pub(super) fn parse(text: &str, wanted: &Wanted) -> Result<f64, UnitError> {
         return Err(fail(at, format!("'{unit}' is no unit of {}: {si} fits", wanted.what)));
     }
     // the powers of ten go into the literal, so that "0.07 mm" is 7e-5 to the last bit
-    let si = shifted(&digits, power).unwrap_or(value * 10f64.powi(power)) * factor;
+    let si = shifted(&digits, power).unwrap_or(value * math::powi(10.0, power)) * factor;
     if si.is_finite() && (si != 0.0 || value == 0.0) {
         Ok(si)
     } else {
@@ -208,7 +209,7 @@ fn product(chars: &[char], mut i: usize) -> Result<Product, (usize, String)> {
                 if exponent == 0 || exponent.abs() > 9 {
                     return Err((i, format!("'{name}' to the power {exponent}")));
                 }
-                factor *= f64::powi(f, exponent);
+                factor *= math::powi(f, exponent);
                 power += p * exponent;
                 for (total, one) in dimension.iter_mut().zip(d) {
                     *total = total.saturating_add(one.saturating_mul(exponent as i8));

@@ -2,8 +2,8 @@
 
 use super::WallLaw;
 use crate::impact::ImpactError;
-use crate::math::BEST;
 use crate::math::root::sign_change;
+use crate::math::{BEST, sin_cos};
 use crate::normal::{NormalLaw, Window};
 use crate::roughness::{AdhesionNumbers, adhesion_numbers};
 use crate::tangential::{Tangential, walton};
@@ -65,7 +65,7 @@ impl WallLaw {
         }
         // sliding to the end ⇔ f(1 + e)v_n < (2/7)(1 + β₀)v_t
         let excess = |angle: f64| {
-            let (s, c) = angle.sin_cos();
+            let (s, c) = sin_cos(angle);
             let response = self.kernel.normal.respond(BEST, &self.pieces, speed * s, (speed * c) * (speed * c), &size);
             let cap = friction * response.friction_share * (1.0 + response.e) * s;
             match self.tangential() {
