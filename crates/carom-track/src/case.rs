@@ -8,6 +8,7 @@ mod files;
 mod flow;
 mod injection;
 mod removal;
+mod stl;
 mod text;
 mod wall;
 
@@ -95,7 +96,8 @@ impl Case {
         countable(&injections)?;
         injection::distinct(read.injection.iter().filter_map(|i| i.value.name.as_ref()), "injection")?;
         injection::distinct(read.wall.iter().map(|w| &w.value.name), "wall")?;
-        let walls = read.wall.iter().map(|w| wall::read(w, &files)).collect::<Result<Vec<_>, _>>()?;
+        let mut notes = Vec::new();
+        let walls = read.wall.iter().map(|w| wall::read(w, &files, &mut notes)).collect::<Result<Vec<_>, _>>()?;
         let largest = injections.iter().map(|i| i.largest).fold(0.0, f64::max);
         wall::contradictions(&read.wall, &walls, largest)?;
         let behaviors = read
@@ -112,7 +114,7 @@ impl Case {
         sampled_starts(&walls, &injections, &behaviors)?;
         let output = read.output;
         let bins = bins(&output)?;
-        let weightless = read.forces.gravity.is_none().then(|| "no gravity: [forces] gives none".to_owned());
+        notes.extend(read.forces.gravity.is_none().then(|| "no gravity: [forces] gives none".to_owned()));
         // materials come from a library that may change: what was made of them tells
         let fingerprint = files.fingerprint().with_value(&behaviors).with_value(&injections).number();
         Ok(Self {
@@ -128,7 +130,7 @@ impl Case {
             fates: output.fates.unwrap_or_default().0,
             vtk: output.vtk.unwrap_or(true),
             bins,
-            notes: weightless.into_iter().collect(),
+            notes,
             text: text.to_owned(),
             fingerprint,
         })

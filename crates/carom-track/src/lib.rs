@@ -20,7 +20,7 @@ pub mod geometry;
 pub mod injection;
 pub mod integrate;
 mod lanes;
-pub mod random;
+pub use carom::random;
 pub mod record;
 pub mod run;
 pub mod summary;

@@ -48,9 +48,13 @@ impl<'a> Files<'a> {
         Self { folder: case.parent().unwrap_or(Path::new("")), fingerprint: Cell::new(Fingerprint::of(text)) }
     }
 
-    /// What is in a file.
+    /// What is in a file; not in what may never end, such as a device or a pipe.
     pub fn read(&self, name: &str) -> std::io::Result<Vec<u8>> {
-        let bytes = std::fs::read(self.folder.join(name))?;
+        let path = self.folder.join(name);
+        if !std::fs::metadata(&path)?.is_file() {
+            return Err(std::io::Error::other("is not a regular file"));
+        }
+        let bytes = std::fs::read(path)?;
         self.fingerprint.set(self.fingerprint.get().with(&bytes));
         Ok(bytes)
     }

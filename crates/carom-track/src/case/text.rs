@@ -125,6 +125,7 @@ pub(super) struct CylinderText {
 pub(super) struct StlText {
     pub file: At<String>,
     pub unit: Option<At<Length>>,
+    pub solid: Option<At<String>>,
 }
 
 #[derive(Debug, serde::Deserialize)]

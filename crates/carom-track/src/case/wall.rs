@@ -3,7 +3,7 @@
 use super::check::{needed, positive, word, wrong};
 use super::files::Files;
 use super::injection::{Injected, no_such_law};
-use super::text::{Si, StlText, WallText};
+use super::text::{Si, WallText};
 use crate::domain::{ContactAt, Wall};
 use crate::geometry::{Cylinder, Mesh, Plane, Room, Shape};
 use crate::tracker::Behavior;
@@ -19,17 +19,17 @@ pub(super) const WORDS: [&str; 4] = ["trap", "escape", "wall-jet", "reflect"];
 /// The laws as written, by name.
 pub(super) type Laws = BTreeMap<String, At<LawSpec>>;
 
-/// The geometry of a wall.
-pub(super) fn read(at: &At<WallText>, files: &Files) -> Result<Wall, SpecError> {
+/// The geometry of a wall. What files were read for it is added to `notes`.
+pub(super) fn read(at: &At<WallText>, files: &Files, notes: &mut Vec<String>) -> Result<Wall, SpecError> {
     let text = &at.value;
-    let shape = shape(at, files)?;
+    let shape = shape(at, files, notes)?;
     let contacts = [("surface", ContactAt::Surface), ("center", ContactAt::Center)];
     let contact_at = text.contact_at.as_ref().map_or(Ok(ContactAt::Surface), |c| word(c, "contact_at", &contacts))?;
     let velocity = velocity(text, &shape)?;
     Ok(Wall { name: text.name.value.clone(), shape, contact_at, velocity })
 }
 
-fn shape(at: &At<WallText>, files: &Files) -> Result<Shape, SpecError> {
+fn shape(at: &At<WallText>, files: &Files, notes: &mut Vec<String>) -> Result<Shape, SpecError> {
     let text = &at.value;
     let name = &text.name.value;
     let mut shapes = Vec::new();
@@ -57,7 +57,9 @@ fn shape(at: &At<WallText>, files: &Files) -> Result<Shape, SpecError> {
         shapes.extend(Mesh::block(min, max).map(Shape::Mesh));
     }
     if let Some(stl) = &text.stl {
-        shapes.push(Shape::Mesh(mesh(stl, files)?));
+        let (mesh, note) = super::stl::mesh(stl, name, files)?;
+        shapes.push(Shape::Mesh(mesh));
+        notes.push(note);
     }
     match (shapes.pop(), shapes.is_empty()) {
         (Some(shape), true) => Ok(shape),
@@ -84,21 +86,6 @@ fn direction(at: &At<[f64; 3]>, key: &str) -> Result<[f64; 3], SpecError> {
     unit(at.value).ok_or_else(|| {
         wrong(at, format!("{key} has no direction: {:?}", at.value)).help("give a finite vector that is not zero")
     })
-}
-
-/// Triangles from an STL file, text or binary; its numbers are in metres unless a unit is given.
-fn mesh(at: &At<StlText>, files: &Files) -> Result<Mesh, SpecError> {
-    let file = &at.value.file;
-    let unit = at.value.unit.as_ref().map_or(Ok(1.0), |u| positive(u, "unit", u.value.0))?;
-    let failed = |e: std::io::Error| wrong(file, format!("{}: {e}", file.value));
-    let mut bytes = std::io::Cursor::new(files.read(&file.value).map_err(failed)?);
-    let mut triangles = Vec::new();
-    for triangle in stl_io::create_stl_reader(&mut bytes).map_err(failed)? {
-        let corner = |v: &stl_io::Vertex| [0, 1, 2].map(|c| f64::from(v.0[c]) * unit);
-        let [a, b, c] = &triangle.map_err(failed)?.vertices;
-        triangles.push([corner(a), corner(b), corner(c)]);
-    }
-    Mesh::new(triangles).ok_or_else(|| wrong(file, format!("{} has no triangle with an area", file.value)))
 }
 
 /// A wall may slide along itself, not leave its place.

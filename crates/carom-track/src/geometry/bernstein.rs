@@ -8,6 +8,17 @@
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bernstein<const N: usize>(pub [f64; N]);
 
+/// Where a polynomial goes from positive to zero or below.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Descents {
+    /// Nowhere in (0, 1].
+    None,
+    /// There alone.
+    One(f64),
+    /// Perhaps at more than one place: [`Bernstein::first_descent`] finds them.
+    Many,
+}
+
 /// Halvings after which an interval is a point: 2⁻⁵² of the step.
 const DEEPEST: u32 = 52;
 
@@ -99,17 +110,25 @@ impl<const N: usize> Bernstein<N> {
         self.0.iter().find(|c| **c != 0.0).is_some_and(|c| *c < 0.0)
     }
 
+    /// All descents, where that is plain.
+    #[inline(always)]
+    pub fn descents(&self) -> Descents {
+        match self.sign_changes() {
+            0 => Descents::None,
+            1 if self.0[0] > 0.0 => Descents::One(self.refine(0.0, 1.0)),
+            1 => Descents::None,
+            _ => Descents::Many,
+        }
+    }
+
     /// The first θ in (0, 1] where the polynomial goes from positive to zero or below, and which `accept` takes.
     #[inline(always)]
     pub fn first_descent(&self, mut accept: impl FnMut(f64) -> bool) -> Option<f64> {
-        match self.sign_changes() {
-            0 => None,
-            // the usual case, without the recursion
-            1 => {
-                let theta = if self.0[0] > 0.0 { self.refine(0.0, 1.0) } else { return None };
-                accept(theta).then_some(theta)
-            }
-            _ => self.descend(*self, 0.0, 1.0, DEEPEST, &mut accept),
+        // the usual cases, without the recursion
+        match self.descents() {
+            Descents::None => None,
+            Descents::One(theta) => accept(theta).then_some(theta),
+            Descents::Many => self.descend(*self, 0.0, 1.0, DEEPEST, &mut accept),
         }
     }
 

@@ -29,19 +29,21 @@ pub fn first_contact<const N: usize>(
     gap.first_descent(accept)
 }
 
-/// [`first_contact`] of a surface that ends somewhere: a sphere deep within its clearance is beside it, not in contact, and
-/// meets it when it comes from outside.
-pub fn bounded_contact<const N: usize>(
+/// [`first_contact`] of a surface that ends somewhere. A sphere deep within its clearance is either beside it, and meets it
+/// when it comes from outside, or, where `accept` takes its place, in it: then it is in contact at once if it goes deeper.
+pub fn overlapping_contact<const N: usize>(
     start: f64,
     change: &Bernstein<N>,
     slack: f64,
-    accept: impl FnMut(f64) -> bool,
+    mut accept: impl FnMut(f64) -> bool,
 ) -> Option<f64> {
-    if start < -slack {
-        change.scaled(1.0, start).first_descent(accept)
-    } else {
-        first_contact(start, change, slack, accept)
+    if start >= -slack {
+        return first_contact(start, change, slack, accept);
     }
+    if change.leads_down() && accept(0.0) {
+        return Some(0.0);
+    }
+    change.scaled(1.0, start).first_descent(accept)
 }
 
 #[cfg(test)]

@@ -13,6 +13,7 @@ mod mesh;
 mod path;
 mod plane;
 mod room;
+pub mod stl;
 mod walls;
 
 pub use bernstein::Bernstein;

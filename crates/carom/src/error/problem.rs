@@ -181,6 +181,7 @@ impl Problem {
         match self {
             Self::Text { message, .. } | Self::Curve { message, .. } => message.clone(),
             Self::UnknownKey { what, key, .. } => format!("unknown {what} '{key}'"),
+            Self::UnknownName { what: "law", name, .. } => format!("no law '{name}'"),
             Self::UnknownName { what, name, .. } => format!("unknown {what} '{name}'"),
             Self::LossAlone { loss } => format!("'{}' is a loss, not a law", loss.name()),
             Self::UnknownMaterial { name, .. } => format!("unknown material '{name}'"),

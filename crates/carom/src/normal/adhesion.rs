@@ -140,6 +140,7 @@ impl Mechanism for Work {
         Key::EquilibriumSpacing,
     ];
     const ROUGHNESS: bool = true;
+    const ADHESIVE_CONTACT: bool = true;
 
     fn from_law(law: &Inputs) -> Result<Self, LawError> {
         Self::of(law)
@@ -157,6 +158,12 @@ impl Mechanism for Work {
 
     fn capture_velocity(&self, size: &Size) -> Option<f64> {
         Some(Work::capture_velocity(self, size))
+    }
+
+    /// The work at the fastest approach that it captures, where it equals the kinetic energy.
+    fn hold_squared(&self, size: &Size) -> Option<f64> {
+        let v = Work::capture_velocity(self, size);
+        Some(v * v)
     }
 
     fn exhaustion(&self, _: &Size) -> Option<(f64, Validity)> {
@@ -189,6 +196,7 @@ impl Mechanism for AdhesionDamping {
         Key::EquilibriumSpacing,
     ];
     const ROUGHNESS: bool = true;
+    const ADHESIVE_CONTACT: bool = true;
 
     fn from_law(law: &Inputs) -> Result<Self, LawError> {
         let work = Work::of(law)?;
@@ -285,6 +293,7 @@ impl Mechanism for Jkr {
         "energy that tearing a JKR contact takes, (V_s/v)² (Thornton & Ning 1998); knows no roughness";
     const STAGE: Stage = Stage::Surface;
     const KEYS: &'static [Key] = &[Key::WorkOfAdhesion, Key::InterfacialParameter, Key::EquilibriumSpacing];
+    const ADHESIVE_CONTACT: bool = true;
 
     fn from_law(law: &Inputs) -> Result<Self, LawError> {
         let pair = law.pair()?;
@@ -300,6 +309,11 @@ impl Mechanism for Jkr {
 
     fn capture_velocity(&self, size: &Size) -> Option<f64> {
         Some(math::sqrt(self.sticking_velocity_squared(size)))
+    }
+
+    /// The work of tearing a resting sphere off.
+    fn hold_squared(&self, size: &Size) -> Option<f64> {
+        Some(self.sticking_velocity_squared(size))
     }
 }
 

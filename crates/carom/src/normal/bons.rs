@@ -70,6 +70,7 @@ impl Mechanism for Bons {
     const ABOUT: &'static str =
         "energy an elastic bar can store at yield, e = V_y/v above it (Bons et al. 2017, as derived here)";
     const STAGE: Stage = Stage::Bulk;
+    const ELASTIC: bool = false;
     const KEYS: &'static [Key] = &[Key::PlasticConstant, Key::DynamicStrengthFactor];
 
     fn from_law(law: &Inputs) -> Result<Self, LawError> {

@@ -79,6 +79,7 @@ impl Mechanism for Kadomtsev {
     const KIND: &'static str = PLASTIC_LOSS;
     const ABOUT: &'static str = "elastic-plastic contact of the EAP model (Kadomtsev; Kim & Dunn 2007, Eqs 29-34)";
     const STAGE: Stage = Stage::Bulk;
+    const ELASTIC: bool = false;
     const KEYS: &'static [Key] = &[Key::PlasticConstant, Key::DynamicStrengthFactor];
 
     fn from_law(law: &Inputs) -> Result<Self, LawError> {

@@ -95,6 +95,7 @@ impl Mechanism for Tabor {
     const KIND: &'static str = PLASTIC_LOSS;
     const ABOUT: &'static str = "indentation with work hardening, fitted (Tabor 1948; Kim & Dunn 2007, Eqs 41-43)";
     const STAGE: Stage = Stage::Bulk;
+    const ELASTIC: bool = false;
     const KEYS: &'static [Key] = &[Key::YieldVelocity, Key::MeyerIndex];
 
     fn from_law(law: &Inputs) -> Result<Self, LawError> {

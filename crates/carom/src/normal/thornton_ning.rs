@@ -69,6 +69,7 @@ impl Mechanism for ThorntonNing {
     const KIND: &'static str = PLASTIC_LOSS;
     const ABOUT: &'static str = "elastic, perfectly plastic spheres (Thornton & Ning 1998; Kim & Dunn 2007, Eq. 44)";
     const STAGE: Stage = Stage::Bulk;
+    const ELASTIC: bool = false;
     const KEYS: &'static [Key] = &[Key::LimitingPressure, Key::PlasticConstant, Key::DynamicStrengthFactor];
 
     fn from_law(law: &Inputs) -> Result<Self, LawError> {

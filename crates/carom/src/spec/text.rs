@@ -86,7 +86,8 @@ mod toml {
         match laws.iter().find(|(key, _)| key.value == name) {
             Some(found) => law(found),
             None => {
-                let names: Vec<String> = laws.into_iter().map(|(key, _)| key.value).collect();
+                let mut names: Vec<String> = laws.into_iter().map(|(key, _)| key.value).collect();
+                names.sort();
                 Err(no_law(name, names))
             }
         }

@@ -1,0 +1,162 @@
+//! The closed box of `closed_box` between walls of other shapes: what each costs over six planes.
+//!
+//! All shapes in turn, several rounds; the least processor time of each and its ratio to the planes' are printed. `walls build` times
+//! building a mesh of a million triangles.
+
+use carom_track::domain::{AnyDomain, ContactAt, Wall};
+use carom_track::dynamics::Dynamics;
+use carom_track::flow::{Flow, Fluid};
+use carom_track::force::{Drag, Forces};
+use carom_track::geometry::{Cylinder, Mesh, Room, Shape, Triangle};
+use carom_track::random::{Purpose, Stream};
+use carom_track::record::{End, ImpactRecord, Sink};
+use carom_track::tracker::{Behavior, Particle, Settings, SettleHeight, Tracker};
+use std::time::Instant;
+
+const PARTICLES: u64 = 4096;
+const ROUNDS: usize = 9;
+const SIDE: f64 = 0.02;
+const UNTIL: f64 = 0.05;
+
+#[derive(Default)]
+struct Count {
+    impacts: u64,
+    steps: u64,
+    outside: u64,
+}
+
+impl Sink for Count {
+    fn start(&mut self, _: &Particle) -> bool {
+        false
+    }
+    fn impact(&mut self, _: &ImpactRecord) {
+        self.impacts += 1;
+    }
+    fn point(&mut self, _: u64, _: f64, _: [f64; 3], _: [f64; 3], _: [f64; 3]) {}
+    fn end(&mut self, end: &End) {
+        self.steps += end.steps;
+        self.outside += u64::from(!end.position.iter().all(|c| (0.0..=SIDE).contains(c)));
+    }
+}
+
+fn particle(number: u64) -> Particle {
+    let mut draws = Stream::new(1, number, Purpose::Injection, 0);
+    let place: [f64; 3] = draws.uniforms();
+    let way: [f64; 3] = draws.uniforms();
+    Particle {
+        number,
+        injection: 0,
+        diameter: (60.0 + 60.0 * draws.uniform()) * 1e-6,
+        density: 2500.0,
+        weight: 1.0,
+        time: 0.0,
+        position: place.map(|u| 1e-3 + 18e-3 * u),
+        velocity: way.map(|u| 8.0 * u - 4.0),
+        spin: [0.0; 3],
+    }
+}
+
+/// The box with every side divided into `n` × `n` squares of two triangles.
+fn triangles(n: usize) -> Vec<Triangle> {
+    let mut all = Vec::with_capacity(12 * n * n);
+    let at = |i: usize| if i == n { SIDE } else { SIDE * i as f64 / n as f64 };
+    for axis in 0..3 {
+        for level in [0.0, SIDE] {
+            let corner = |i: usize, j: usize| {
+                let mut x = [level; 3];
+                (x[(axis + 1) % 3], x[(axis + 2) % 3]) = (at(i), at(j));
+                x
+            };
+            for i in 0..n {
+                for j in 0..n {
+                    let [a, b, c, d] = [corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)];
+                    all.extend([[a, b, c], [a, c, d]]);
+                }
+            }
+        }
+    }
+    all
+}
+
+fn wall(shape: Shape) -> Wall {
+    Wall { name: "box".into(), shape, contact_at: ContactAt::Surface, velocity: [0.0; 3] }
+}
+
+fn mesh(n: usize) -> Shape {
+    Shape::Mesh(Mesh::new(&triangles(n)).expect("triangles"))
+}
+
+/// A stray triangle in each of many planes outside the box: what the few planes of a box hide.
+fn scattered(n: usize) -> Shape {
+    let mut all = triangles(n);
+    all.extend((0..40).map(|i| {
+        let z = -1.0 - 0.01 * f64::from(i);
+        [[0.0, 0.0, z], [0.01, 0.001 * f64::from(i), z], [0.0, 0.01, z - 0.001]]
+    }));
+    Shape::Mesh(Mesh::new(&all).expect("triangles"))
+}
+
+/// Processor time of this thread, ns, where the system tells it; else the clock.
+fn processor(begin: Instant) -> f64 {
+    let stat = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
+    stat.split(' ').next().and_then(|n| n.parse().ok()).unwrap_or_else(|| begin.elapsed().as_nanos() as f64)
+}
+
+fn build() {
+    let all = triangles(289);
+    for _ in 0..3 {
+        let begin = Instant::now();
+        let mesh = Mesh::new(&all).expect("triangles");
+        println!("{} triangles built in {:.2} s", mesh.len(), begin.elapsed().as_secs_f64());
+    }
+}
+
+fn main() {
+    if std::env::args().any(|a| a == "build") {
+        return build();
+    }
+    let room = || wall(Shape::Room(Room { min: [0.0; 3], max: [SIDE; 3] }));
+    let rod = Cylinder { point: [0.5; 3], axis: [0.0, 0.0, 1.0], radius: 0.01, inside: false };
+    let inner = Cylinder { point: [0.012, 0.012, 0.0], axis: [0.0, 0.0, 1.0], radius: 1e-3, inside: false };
+    let cases = [
+        ("box of planes", vec![room()]),
+        ("and a rod far away", vec![room(), wall(Shape::Cylinder(rod))]),
+        ("and a rod inside", vec![room(), wall(Shape::Cylinder(inner))]),
+        ("and a block far away", vec![room(), wall(Shape::Mesh(Mesh::block([1.0; 3], [2.0; 3]).expect("a block")))]),
+        ("12 triangles", vec![wall(mesh(1))]),
+        ("12, more planes", vec![wall(scattered(1))]),
+        ("1 200", vec![wall(mesh(10))]),
+        ("10 800", vec![wall(mesh(30))]),
+        ("120 000", vec![wall(mesh(100))]),
+        ("120 000, more planes", vec![wall(scattered(100))]),
+        ("1 080 000", vec![wall(mesh(300))]),
+    ];
+    let law = "normal = \"constant\"\nrestitution = 0.95\ntangential = \"constant\"\ntangential_restitution = 0.95\n";
+    let law = carom::spec::parse_law(law).expect("a law").compile(carom::material::Library::builtin()).expect("a law");
+    let forces = Forces { drag: Drag::SchillerNaumann, ..Forces::default() };
+    let dynamics = Dynamics { fluid: Fluid::default(), forces, random_walk: None, brownian: false };
+    let settings =
+        Settings { tolerance: 1e-5, until: UNTIL, settle_height: SettleHeight::DEFAULT, max_steps: 1_000_000, seed: 1 };
+    let particles: Vec<Particle> = (0..PARTICLES).map(particle).collect();
+    let domains: Vec<_> = cases.iter().map(|(_, walls)| AnyDomain::new(Flow::Still, walls.clone())).collect();
+    let begin = Instant::now();
+    let mut least = vec![f64::INFINITY; cases.len()];
+    for round in 0..ROUNDS {
+        for ((domain, (name, walls)), least) in domains.iter().zip(&cases).zip(&mut least) {
+            let behaviors: Vec<_> = walls.iter().map(|_| Behavior::Law(vec![law.clone()])).collect();
+            let tracker = Tracker { domain, dynamics: &dynamics, behaviors: &behaviors, settings };
+            let mut count = Count::default();
+            let before = processor(begin);
+            tracker.run(&mut particles.iter().copied(), &mut count);
+            *least = least.min(processor(begin) - before);
+            if round == 0 {
+                let Count { impacts, steps, outside } = count;
+                println!("{name:22} {impacts} impacts, {steps} steps, {outside} outside");
+            }
+        }
+    }
+    let each = 1.0 / (PARTICLES as f64 * UNTIL * 1e3);
+    for ((name, _), time) in cases.iter().zip(&least) {
+        println!("{name:22} {:8.1} ns per sphere and ms, {:6.2} times the planes", time * each, time / least[0]);
+    }
+}
