@@ -40,6 +40,7 @@ pub mod resolved;
 pub mod roughness;
 pub mod scatter;
 pub mod spec;
+pub mod study;
 pub mod tangential;
 pub mod units;
 pub mod validity;

@@ -1,9 +1,9 @@
 //! The registry's keys as flags: names, help, values.
 
-use crate::uncertain::{self, Distribution};
 use crate::values;
 use carom::error::Wording;
 use carom::spec::{Key, LawSpec};
+use carom::study::{Distribution, read_distribution};
 use clap::{Arg, ArgMatches, Command};
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
@@ -69,7 +69,7 @@ fn help(key: Key) -> String {
         }
         Key::Sphere => help += ": see `carom materials`, or rho=8000,E=190GPa,nu=0.27,gamma=1.62,sigma=310MPa",
         Key::Normal => {
-            let losses: Vec<&str> = carom::normal::Loss::ALL.into_iter().map(|l| l.name()).collect();
+            let losses: Vec<&str> = carom::normal::Loss::ALL.iter().map(|l| l.name()).collect();
             help += &format!(
                 ": {}; or losses, separated by commas: {}",
                 carom::spec::NormalKind::NAMES.join(", "),
@@ -95,7 +95,7 @@ fn read(key: Key, text: &str) -> Result<Given, String> {
                 Err(e) => Err(e.unit_error().map_or((0, e.message_in(&Words)), |u| (u.at, u.message.clone()))),
             }
         };
-        return uncertain::distribution(text, &number, key.ends()).map(Given::Drawn);
+        return read_distribution(text, &number, key.ends()).map(Given::Drawn).map_err(|e| e.to_string());
     }
     let mut law = LawSpec::default();
     match key {
