@@ -3,6 +3,9 @@
 use crate::math::normal::{normal_probability, normal_quantile};
 use crate::math::{exp, ln};
 use crate::units::{Number, Quantity, UnitError};
+use alloc::borrow::ToOwned;
+use alloc::string::String;
+use alloc::string::ToString;
 use core::fmt;
 
 /// A value, known exactly or as a distribution; SI units.

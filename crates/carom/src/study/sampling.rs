@@ -1,9 +1,12 @@
 //! Samples, and what they come to.
 
 use crate::WallLaw;
+#[cfg(not(feature = "std"))]
+use crate::math::Plainly as _;
 use crate::math::sqrt;
 use crate::random::{Purpose, Stream};
-use std::borrow::Cow;
+use alloc::borrow::Cow;
+use alloc::vec::Vec;
 
 /// How to sample. A sample has the same draws at every point and on every curve (common random numbers): curves are smooth, and
 /// differences between them are not noise.
