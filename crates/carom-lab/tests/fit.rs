@@ -13,7 +13,7 @@ fn law(keys: &str) -> LawSpec {
 }
 
 fn wall(keys: &str) -> WallLaw {
-    law(keys).compile(&Library::builtin()).expect("a law")
+    law(keys).compile(Library::builtin()).expect("a law")
 }
 
 /// Points of a law without noise, 70 um, head-on.
@@ -37,11 +37,11 @@ fn free(names: &[Key]) -> Vec<Free> {
 
 fn found(keys: &str, names: &[Key], data: &Data, resamples: u32) -> Fit {
     let options = Options { bootstrap: BootstrapOptions { resamples, ..Default::default() } };
-    fit(&law(keys), &free(names), data, &Library::builtin(), &options).expect("it fits")
+    fit(&law(keys), &free(names), data, Library::builtin(), &options).expect("it fits")
 }
 
 fn refused(keys: &str, names: &[Key], data: &Data) -> String {
-    fit(&law(keys), &free(names), data, &Library::builtin(), &Options::default()).expect_err("refused").to_string()
+    fit(&law(keys), &free(names), data, Library::builtin(), &Options::default()).expect_err("refused").to_string()
 }
 
 const SPEEDS: [f64; 12] = [0.01, 0.03, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 40.0];
@@ -79,7 +79,7 @@ fn every_law_that_bounces_can_be_fitted() {
         let truth = format!("{normal}{truth}");
         let fit = found(normal, &names, &exact(&truth, &SPEEDS), 0);
         for parameter in &fit.parameters {
-            let wanted = parameter.parameter.start(&law(&truth), &Library::builtin());
+            let wanted = parameter.parameter.start(&law(&truth), Library::builtin());
             assert!((parameter.value / wanted - 1.0).abs() < 1e-4, "{truth}: {parameter:?}, {:?}", fit.warnings);
         }
     }
@@ -207,7 +207,7 @@ fn both_ways_of_drawing_again_agree_and_depend_on_the_seed_alone() {
     }
     let width = |resampling, seed| {
         let options = Options { bootstrap: BootstrapOptions { resamples: 199, seed, resampling } };
-        let fit = fit(&law("normal = \"ea\"\n"), &free(&[RoughnessFactor]), &data, &Library::builtin(), &options);
+        let fit = fit(&law("normal = \"ea\"\n"), &free(&[RoughnessFactor]), &data, Library::builtin(), &options);
         fit.expect("it fits").parameters[0].bootstrap.expect("an interval")
     };
     let (a, b) = (width(Resampling::Residuals, 1), width(Resampling::Residuals, 1));

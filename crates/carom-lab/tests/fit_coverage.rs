@@ -80,7 +80,7 @@ impl Study {
     fn fits(&self) -> Vec<Fit> {
         let library = Library::builtin();
         let law = self.law();
-        let wall = law.compile(&library).expect("a law");
+        let wall = law.compile(library).expect("a law");
         // the search begins from values that have nothing to do with the truth
         let mut blind = law.clone();
         for parameter in &self.free {
@@ -88,14 +88,14 @@ impl Study {
                 Key::AdhesionDamping => blind.adhesion_damping = None,
                 Key::HertzDamping => blind.hertz_damping = None,
                 Key::RoughnessFactor => blind.roughness_factor = None,
-                other => other.set(&mut blind, 3.0 * other.start(&law, &library)),
+                other => other.set(&mut blind, 3.0 * other.start(&law, library)),
             }
         }
         let free: Vec<Free> = self.free.iter().copied().map(Free::new).collect();
         let found = Mutex::new(Vec::new());
         std::thread::scope(|scope| {
             for part in 0..2 {
-                let (free, wall, blind, library, found) = (&free, &wall, &blind, &library, &found);
+                let (free, wall, blind, library, found) = (&free, &wall, &blind, library, &found);
                 scope.spawn(move || {
                     for trial in (part..self.trials).step_by(2) {
                         let bootstrap =
@@ -116,7 +116,7 @@ impl Study {
         let library = Library::builtin();
         let fits = self.fits();
         for (n, parameter) in self.free.iter().enumerate() {
-            let truth = parameter.start(&law, &library);
+            let truth = parameter.start(&law, library);
             let (mut below, mut above) = (0, 0);
             for fit in &fits {
                 let (low, high) = interval(fit, n).unwrap_or((f64::NAN, f64::NAN));

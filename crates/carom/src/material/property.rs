@@ -16,7 +16,7 @@ macro_rules! properties {
 
         impl PropertyKind {
             /// All of them, in the order of the documentation.
-            pub const ALL: &'static [Self] = &[$(Self::$variant),*];
+            pub const ALL: [Self; [$(stringify!($variant)),*].len()] = [$(Self::$variant),*];
             /// Their keys and symbols.
             pub(crate) const NAMES: &'static [&'static str] = &[$(stringify!($field), $symbol),*];
             /// Their symbols.
