@@ -2,8 +2,7 @@
 
 use carom::math::normal::{normal_probability, normal_quantile};
 use carom::math::{exp, ln};
-use carom::units::{Number, UnitError};
-use std::str::FromStr;
+use carom::units::{Number, Quantity, UnitError};
 
 /// The value of a flag, SI units.
 #[derive(Clone, Debug, PartialEq)]
@@ -94,15 +93,19 @@ impl std::fmt::Display for Distribution {
     }
 }
 
-/// Reads one value of the quantity `T`, or a distribution of it within a range.
-pub fn read<T>(text: &str, si: fn(T) -> f64, range: (f64, f64)) -> Result<Given, String>
-where
-    T: FromStr<Err = UnitError>,
-{
-    let Some(open) = text.find('(') else {
-        return text.parse().map(|v| Given::One(si(v))).map_err(|e: UnitError| e.to_string());
-    };
-    distribution(text, open, si, range).map(Given::Drawn)
+/// Reads one value of a quantity, or a distribution of it within a range.
+pub fn read<Q: Quantity>(text: &str, range: (f64, f64)) -> Result<Given, String> {
+    if !text.contains('(') {
+        return text.parse::<Q>().map(|v| Given::One(v.si())).map_err(|e| e.to_string());
+    }
+    distribution(text, &number::<Q>, range).map(Given::Drawn)
+}
+
+/// A part of the brackets as a number in SI units; else the character where reading stopped, and why.
+type Part<'a> = &'a dyn Fn(&str) -> Result<f64, (usize, String)>;
+
+fn number<Q: Quantity>(text: &str) -> Result<f64, (usize, String)> {
+    text.parse::<Q>().map(Q::si).map_err(|e: UnitError| (e.at, e.message))
 }
 
 const FORMS: &str = "lognormal(MEDIAN, GSD), normal(MEAN, DEVIATION) and uniform(FROM, TO) are known";
@@ -113,16 +116,15 @@ fn wrong(text: &str, byte: usize, message: &str) -> String {
     format!("\"{text}\": {message} (character {character}); {FORMS}")
 }
 
-fn distribution<T>(text: &str, open: usize, si: fn(T) -> f64, range: (f64, f64)) -> Result<Distribution, String>
-where
-    T: FromStr<Err = UnitError>,
-{
+/// Reads a distribution within a range; `part` reads one of its values.
+pub fn distribution(text: &str, part: Part, range: (f64, f64)) -> Result<Distribution, String> {
+    let open = text.find('(').unwrap_or(text.len());
     let name = text[..open].trim();
     if !Kind::NAMES.contains(&name) {
         let near = carom::error::did_you_mean(name, Kind::NAMES).map_or(String::new(), |n| format!(", {n}"));
         return Err(wrong(text, 0, &format!("no distribution '{name}'{near}")));
     }
-    let inside = &text[open + 1..];
+    let inside = text.get(open + 1..).unwrap_or_default();
     let close = inside.find(')').ok_or_else(|| wrong(text, text.len(), "the bracket is not closed"))?;
     if let Some(extra) = inside[close + 1..].find(|c: char| !c.is_whitespace()) {
         return Err(wrong(text, open + 2 + close + extra, "nothing is wanted behind the bracket"));
@@ -132,12 +134,12 @@ where
         return Err(wrong(text, open + 2 + comma + second, "two values are wanted"));
     }
     let (first, second) = ((&inside[..comma], open + 1), (&inside[comma + 1..close], open + 2 + comma));
-    let quantity = |(part, at): (&str, usize)| value(text, part, at).map(si);
+    let quantity = |(written, at): (&str, usize)| value(text, written, at, part);
     let refuse = |part: (&str, usize), message: &str| Err(wrong(text, begin(part), message));
     let a = quantity(first)?;
     let kind = match name {
         "lognormal" => {
-            let Number(gsd) = value(text, second.0, second.1)?;
+            let gsd = value(text, second.0, second.1, &number::<Number>)?;
             if a <= 0.0 {
                 return refuse(first, "the median must be positive");
             }
@@ -185,10 +187,10 @@ fn must_lie(range: (f64, f64)) -> String {
 }
 
 /// One part of the brackets; an error points at its character in the whole.
-fn value<T: FromStr<Err = UnitError>>(text: &str, part: &str, at: usize) -> Result<T, String> {
-    part.parse().map_err(|e: UnitError| {
-        let bytes: usize = part.chars().take(e.at).map(char::len_utf8).sum();
-        wrong(text, at + bytes, &e.message)
+fn value(text: &str, written: &str, at: usize, part: Part) -> Result<f64, String> {
+    part(written).map_err(|(character, message)| {
+        let bytes: usize = written.chars().take(character).map(char::len_utf8).sum();
+        wrong(text, at + bytes, &message)
     })
 }
 
@@ -198,11 +200,11 @@ mod tests {
     use carom::units::Length;
 
     fn length(text: &str) -> Result<Given, String> {
-        read(text, |l: Length| l.0, (1e-10, 10.0))
+        read::<Length>(text, (1e-10, 10.0))
     }
 
     fn factor(text: &str) -> Result<Given, String> {
-        read(text, |n: Number| n.0, (1e-9, 1.0))
+        read::<Number>(text, (1e-9, 1.0))
     }
 
     fn close(got: f64, want: f64) {

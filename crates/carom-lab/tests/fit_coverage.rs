@@ -5,7 +5,7 @@ use carom::material::Library;
 use carom::random::{Purpose, Stream};
 use carom::spec::{LawSpec, parse_law};
 use carom::{Impact, WallLaw};
-use carom_lab::fit::{BootstrapOptions, Data, Fit, Free, Measurement, Options, Parameter, fit};
+use carom_lab::fit::{BootstrapOptions, Data, Fit, Free, Key, Measurement, Options, Parameter as _, fit};
 use std::sync::Mutex;
 
 const SEED: u64 = 1;
@@ -14,7 +14,7 @@ const STEEL: &str = "sphere = \"stainless-steel\"\nsurface = \"silicon\"\nwork_o
 /// A known law, where it is measured, and how well.
 struct Study {
     law: String,
-    free: Vec<Parameter>,
+    free: Vec<Key>,
     speeds: Vec<f64>,
     angles: Vec<f64>,
     diameters: Vec<f64>,
@@ -80,22 +80,22 @@ impl Study {
     fn fits(&self) -> Vec<Fit> {
         let library = Library::builtin();
         let law = self.law();
-        let wall = law.compile(library).expect("a law");
+        let wall = law.compile(&library).expect("a law");
         // the search begins from values that have nothing to do with the truth
         let mut blind = law.clone();
         for parameter in &self.free {
             match parameter {
-                Parameter::AdhesionDamping => blind.adhesion_damping = None,
-                Parameter::HertzDamping => blind.hertz_damping = None,
-                Parameter::RoughnessFactor => blind.roughness_factor = None,
-                other => other.set(&mut blind, 3.0 * other.start(&law, library)),
+                Key::AdhesionDamping => blind.adhesion_damping = None,
+                Key::HertzDamping => blind.hertz_damping = None,
+                Key::RoughnessFactor => blind.roughness_factor = None,
+                other => other.set(&mut blind, 3.0 * other.start(&law, &library)),
             }
         }
         let free: Vec<Free> = self.free.iter().copied().map(Free::new).collect();
         let found = Mutex::new(Vec::new());
         std::thread::scope(|scope| {
             for part in 0..2 {
-                let (free, wall, blind, library, found) = (&free, &wall, &blind, library, &found);
+                let (free, wall, blind, library, found) = (&free, &wall, &blind, &library, &found);
                 scope.spawn(move || {
                     for trial in (part..self.trials).step_by(2) {
                         let bootstrap =
@@ -116,7 +116,7 @@ impl Study {
         let library = Library::builtin();
         let fits = self.fits();
         for (n, parameter) in self.free.iter().enumerate() {
-            let truth = parameter.start(&law, library);
+            let truth = parameter.start(&law, &library);
             let (mut below, mut above) = (0, 0);
             for fit in &fits {
                 let (low, high) = interval(fit, n).unwrap_or((f64::NAN, f64::NAN));
@@ -143,7 +143,7 @@ fn damped() -> Study {
         law: format!(
             "{STEEL}normal = \"ea\"\nfriction = 0\nroughness_factor = 0.15\nadhesion_damping = 1.3\nhertz_damping = 0.007\n"
         ),
-        free: vec![Parameter::AdhesionDamping, Parameter::HertzDamping, Parameter::RoughnessFactor],
+        free: vec![Key::AdhesionDamping, Key::HertzDamping, Key::RoughnessFactor],
         ..Study::default()
     }
 }
@@ -169,7 +169,7 @@ fn with_spheres_that_stayed_and_two_sizes() {
 fn work_of_adhesion_and_plastic_constant() {
     let study = Study {
         law: format!("{STEEL}normal = \"eap\"\nfriction = 0\nplastic_constant = 240e6\n"),
-        free: vec![Parameter::WorkOfAdhesion, Parameter::PlasticConstant],
+        free: vec![Key::WorkOfAdhesion, Key::PlasticConstant],
         noise: 0.005,
         ..Study::default()
     };
@@ -180,7 +180,7 @@ fn work_of_adhesion_and_plastic_constant() {
 fn friction_beside_roughness() {
     let study = Study {
         law: format!("{STEEL}normal = \"ea\"\nfriction = 0.15\nroughness_factor = 0.3\n"),
-        free: vec![Parameter::Friction, Parameter::RoughnessFactor],
+        free: vec![Key::Friction, Key::RoughnessFactor],
         speeds: log_spaced(0.3, 10.0, 5),
         angles: vec![15.0, 30.0, 60.0, 80.0],
         noise: 0.02,

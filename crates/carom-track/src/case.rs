@@ -78,6 +78,7 @@ impl Case {
     /// What is wrong, with its place in `text` ([`CaseError::located`] puts the line in front).
     pub fn from_toml(text: &str, name: &Path, library: &Library) -> Result<Self, CaseError> {
         let read: CaseText = toml::from_str(text)?;
+        let laws = carom::spec::parse_laws(text)?;
         let files = Files::new(name, text);
         let seed = read.seed.unwrap_or(1);
         let fluid = flow::fluid(read.fluid.as_ref())?;
@@ -103,11 +104,11 @@ impl Case {
             .wall
             .iter()
             .map(|at| {
-                let behavior = wall::behavior(at, &read.law, &injections, library)?;
+                let behavior = wall::behavior(at, &laws, &injections, library)?;
                 removal::with_removal(behavior, &at.value, &flow, &fluid, largest)
             })
             .collect::<Result<Vec<_>, _>>()?;
-        unused_laws(&read, library)?;
+        unused_laws(&read, &laws, library)?;
         let settings = settings(&read, seed, &behaviors)?;
         injected_in_the_fluid(&walls, &injections, &behaviors)?;
         sampled_starts(&walls, &injections, &behaviors)?;
@@ -188,8 +189,8 @@ fn countable(injections: &[Injected]) -> Result<(), SpecError> {
 }
 
 /// Laws that no wall uses must be right too.
-fn unused_laws(read: &CaseText, library: &Library) -> Result<(), SpecError> {
-    for (name, law) in &read.law {
+fn unused_laws(read: &CaseText, laws: &wall::Laws, library: &Library) -> Result<(), SpecError> {
+    for (name, law) in laws {
         if wall::WORDS.contains(&name.as_str()) {
             let message = format!("a law may not be called '{name}'");
             return Err(wrong(law, message).help("that word has its own meaning at a wall"));

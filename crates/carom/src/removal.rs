@@ -37,7 +37,7 @@
 //! let removal = wall.removal(50e-6, &air).expect("in range").expect("it adheres");
 //! let sliding = removal.sliding.expect("the law has friction");
 //! assert!(removal.rolling.friction_velocity < sliding.friction_velocity);
-//! # Ok::<(), carom::SpecError>(())
+//! # Ok::<(), carom::LawError>(())
 //! ```
 
 use crate::impact::ImpactError;
