@@ -114,7 +114,7 @@ impl Case {
         sampled_starts(&walls, &injections, &behaviors)?;
         // materials come from a library that may change: what they are made of tells, and the text tells the rest
         let fingerprint =
-            materials(&read, library).iter().fold(files.fingerprint(), |f, m| f.with_material(m)).number();
+            materials(&read, &laws, library).iter().fold(files.fingerprint(), |f, m| f.with_material(m)).number();
         let output = read.output;
         let bins = bins(&output)?;
         notes.extend(read.forces.gravity.is_none().then(|| "no gravity: [forces] gives none".to_owned()));
@@ -164,11 +164,11 @@ impl Case {
 }
 
 /// The materials that a case names, in the order in which it does.
-fn materials(read: &CaseText, library: &Library) -> Vec<Material> {
+fn materials(read: &CaseText, laws: &wall::Laws, library: &Library) -> Vec<Material> {
     let injected = read.injection.iter().filter_map(|i| i.value.material.as_ref());
-    let laws = read.law.values().flat_map(|law| [law.value.sphere.as_ref(), law.value.surface.as_ref()]).flatten();
+    let named = laws.values().flat_map(|law| [law.value.sphere.as_ref(), law.value.surface.as_ref()]).flatten();
     // one that is not in the library is an error where it is used, and nothing where it is not
-    injected.chain(laws).filter_map(|m| m.value.resolve(library).ok()).collect()
+    injected.chain(named).filter_map(|m| m.value.resolve(library).ok()).collect()
 }
 
 /// Particles are counted one by one, and JSON's readers keep no more digits.
