@@ -109,7 +109,9 @@ mod toml {
             [] => parse_law(text),
             [one] => law(one),
             several => {
-                let known = several.iter().map(|(key, _)| key.value.as_str()).collect::<Vec<_>>().join(", ");
+                let mut known: Vec<&str> = several.iter().map(|(key, _)| key.value.as_str()).collect();
+                known.sort_unstable();
+                let known = known.join(", ");
                 Err(LawError::new("the text holds more than one law").help(format!("name one of {known}")))
             }
         }
