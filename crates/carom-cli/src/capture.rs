@@ -13,6 +13,7 @@ use crate::samples::SampleArgs;
 use crate::study::is_drawn;
 use crate::text::Lines;
 use crate::uncertain::Given;
+use crate::warnings::{Warnings, Yielding};
 use carom_report::{Axis, Column, Plot, Table};
 
 const EXAMPLE: &str = "\
@@ -67,6 +68,10 @@ struct Answer {
     law: String,
     #[serde(flatten)]
     figures: Figures,
+    /// Of a head-on impact at the capture velocity.
+    validity: Vec<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    above_yield: Option<Yielding>,
     #[serde(skip_serializing_if = "Option::is_none")]
     removal: Option<removal::Answer>,
 }
@@ -79,8 +84,14 @@ fn one(args: &Args, case: &ImpactArgs) -> Result<(), Failure> {
     let law = case.law.compile(false)?;
     let figures = Figures::new(&law.wall, diameter)?;
     let removal = args.removal.answer(&law, diameter)?;
+    let warnings = match figures.capture_velocity {
+        Some(v) if v > 0.0 => Warnings::at(&law.wall, v, diameter)?,
+        _ => Warnings::default(),
+    };
     if args.grid.json() {
-        return output::print_json(&Answer { diameter, law: law.normal_name(), figures, removal });
+        let (validity, above_yield) = (warnings.codes(), warnings.yielding());
+        let law = law.normal_name();
+        return output::print_json(&Answer { diameter, law, figures, validity, above_yield, removal });
     }
     let mut lines = Lines::default();
     figures.tell(&mut lines);
@@ -88,6 +99,7 @@ fn one(args: &Args, case: &ImpactArgs) -> Result<(), Failure> {
     if let Some(removal) = &removal {
         removal.tell(&mut lines);
     }
+    warnings.tell(&mut lines);
     output::print(&format!("{}\n\n{lines}", law.heading(diameter)))
 }
 

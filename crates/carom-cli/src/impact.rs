@@ -5,8 +5,8 @@ use crate::law::Law;
 use crate::motion::{ImpactArgs, Met, Motion, critical_angle, refused};
 use crate::output::{self, Files};
 use crate::text::{Lines, number, percent, quantity};
+use crate::warnings::{Warnings, Yielding};
 use crate::{figures, history};
-use carom::validity;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
@@ -65,6 +65,8 @@ struct Answer {
     critical_angle_deg: Option<f64>,
     energy: Energy,
     validity: Vec<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    above_yield: Option<Yielding>,
     law: String,
     roughness_factor: f64,
     adhesion_numbers: Option<figures::AdhesionNumbers>,
@@ -117,6 +119,7 @@ impl Answer {
             critical_angle_deg: critical_angle(law, motion),
             energy: Energy(out.energy),
             validity: out.validity.codes().collect(),
+            above_yield: warnings(law, motion, met).yielding(),
             law: law.normal_name(),
             roughness_factor: figures.roughness_factor,
             adhesion_numbers: figures.adhesion_numbers,
@@ -131,6 +134,10 @@ impl Answer {
             },
         })
     }
+}
+
+fn warnings(law: &Law, motion: &Motion, met: &Met) -> Warnings {
+    Warnings::new(&law.wall, met.outcome.validity, motion.components().0, motion.diameter)
 }
 
 /// The answer in a few lines.
@@ -161,11 +168,7 @@ fn tell(answer: &Answer, law: &Law, motion: &Motion, met: &Met) -> String {
         lines.add("rough", format!("roughness angle {angle}: this is the impact on the median facet; e and the angles are against the mean wall"));
     }
     lines.add("energy", shares(met));
-    for (code, bit, meaning) in validity::CODES {
-        if met.outcome.validity.contains(bit) {
-            lines.add("mind", format!("{code}: {meaning}"));
-        }
-    }
+    warnings(law, motion, met).tell(&mut lines);
     text + &lines.to_string()
 }
 

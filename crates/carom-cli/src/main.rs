@@ -25,6 +25,7 @@ mod trajectories;
 mod uncertain;
 mod validate;
 mod values;
+mod warnings;
 
 use clap::{CommandFactory as _, FromArgMatches as _};
 use std::process::ExitCode;

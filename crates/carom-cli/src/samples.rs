@@ -2,9 +2,9 @@
 
 use crate::motion::ImpactArgs;
 use crate::study::drawn;
+use carom::random::{Purpose, Stream};
 use carom_report::significant;
 use carom_track::deposition::wilson;
-use carom_track::random::{Purpose, Stream};
 
 /// The flags.
 #[derive(clap::Args, Clone, Debug)]

@@ -55,8 +55,16 @@ fn an_impact_has_the_contracts_keys() {
     );
     assert_eq!(answer["fate"], "rebound");
     assert_eq!(answer["contact"], "sliding");
-    assert_eq!(answer["validity"], serde_json::json!([]));
+    assert_eq!(answer["validity"], serde_json::json!(["above-yield"]));
     assert!(answer["yield_velocity"].is_null());
+    let warned = &answer["above_yield"];
+    assert_eq!(warned["material"], "stainless-steel");
+    let plastic = json(&format!("impact {STEEL} --speed 1 --angle 40 --friction 0.1 --law eap --json"));
+    assert_eq!(plastic["validity"], serde_json::json!([]));
+    assert!(!keys(&plastic).contains(&"above_yield"));
+    for key in ["yield_velocity", "restitution", "capture_velocity"] {
+        assert_eq!(warned[key], plastic[key], "{key}");
+    }
     assert!((energy_sum(&answer) - 1.0).abs() < 1e-14);
 }
 
@@ -156,7 +164,7 @@ fn removal_is_an_object_of_its_own() {
 #[test]
 fn doubts_are_codes() {
     let answer = json(&format!("impact {STEEL} --speed 200 --adhesion-damping 1.3 --hertz-damping 0.007 --json"));
-    assert_eq!(answer["validity"], serde_json::json!(["damping-exhausted", "large-contact"]));
+    assert_eq!(answer["validity"], serde_json::json!(["damping-exhausted", "large-contact", "above-yield"]));
 }
 
 #[test]

@@ -141,6 +141,13 @@ impl Request<'_> {
         for line in lines {
             let _ = writeln!(text, "{comment} {line}");
         }
+        let fastest = speeds.to * angles.to.to_radians().sin();
+        if let Ok(Some(warning)) = self.law.above_yield(fastest, diameters.middle(), None) {
+            let _ = writeln!(
+                text,
+                "{comment} above-yield: the law has no plastic loss, but {warning} at the fastest impacts"
+            );
+        }
         text
     }
 }

@@ -2,10 +2,10 @@
 //! 92 to 98 % (a true 95 % lies within ±3 standard deviations of 95), and misses it on either side about as often.
 
 use carom::material::Library;
+use carom::random::{Purpose, Stream};
 use carom::spec::{LawSpec, parse_law};
 use carom::{Impact, WallLaw};
 use carom_lab::fit::{BootstrapOptions, Data, Fit, Free, Measurement, Options, Parameter, fit};
-use carom_track::random::{Purpose, Stream};
 use std::sync::Mutex;
 
 const SEED: u64 = 1;

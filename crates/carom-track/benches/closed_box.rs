@@ -2,12 +2,12 @@
 //!
 //! Reported per particle; a fiftieth of it is the time per particle and millisecond.
 
+use carom::random::{Purpose, Stream};
 use carom_track::domain::{AnyDomain, ContactAt, Wall};
 use carom_track::dynamics::Dynamics;
 use carom_track::flow::{Flow, Fluid};
 use carom_track::force::{Drag, Forces};
 use carom_track::geometry::{Room, Shape};
-use carom_track::random::{Purpose, Stream};
 use carom_track::record::{End, ImpactRecord, Sink};
 use carom_track::tracker::{Behavior, Particle, Settings, SettleHeight, Tracker};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};

@@ -21,7 +21,7 @@ use crate::dynamics::Dynamics;
 use crate::injection::Start;
 use crate::tables::TableFormat;
 use crate::tracker::{Behavior, Particle, Settings, SettleHeight, Tracker};
-use carom::material::Library;
+use carom::material::{Library, Material};
 use carom::{Impact, SpecError};
 use check::{positive, wrong};
 use files::Files;
@@ -111,11 +111,12 @@ impl Case {
         let settings = settings(&read, seed, &behaviors)?;
         injected_in_the_fluid(&walls, &injections, &behaviors)?;
         sampled_starts(&walls, &injections, &behaviors)?;
+        // materials come from a library that may change: what they are made of tells, and the text tells the rest
+        let fingerprint =
+            materials(&read, library).iter().fold(files.fingerprint(), |f, m| f.with_material(m)).number();
         let output = read.output;
         let bins = bins(&output)?;
         notes.extend(read.forces.gravity.is_none().then(|| "no gravity: [forces] gives none".to_owned()));
-        // materials come from a library that may change: what was made of them tells
-        let fingerprint = files.fingerprint().with_value(&behaviors).with_value(&injections).number();
         Ok(Self {
             title: read.title.unwrap_or_default(),
             name: name.to_owned(),
@@ -159,6 +160,14 @@ impl Case {
         }
         None
     }
+}
+
+/// The materials that a case names, in the order in which it does.
+fn materials(read: &CaseText, library: &Library) -> Vec<Material> {
+    let injected = read.injection.iter().filter_map(|i| i.value.material.as_ref());
+    let laws = read.law.values().flat_map(|law| [law.value.sphere.as_ref(), law.value.surface.as_ref()]).flatten();
+    // one that is not in the library is an error where it is used, and nothing where it is not
+    injected.chain(laws).filter_map(|m| m.value.resolve(library).ok()).collect()
 }
 
 /// Particles are counted one by one, and JSON's readers keep no more digits.

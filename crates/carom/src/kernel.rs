@@ -7,6 +7,7 @@
 //! | question | place |
 //! |---|---|
 //! | One impact in space, reduced to the plane of its slip | `kernel/impact.rs` |
+//! | The paper's two laws, in code of their own | `kernel/short.rs` |
 //! | Many impacts in columns | `kernel/columns.rs`, behind [`crate::batch`] |
 //! | Walls that scatter: facet after facet | `kernel/rough.rs` |
 //! | What is no impact, and what to mind about one | `kernel/judge.rs` |
@@ -15,6 +16,7 @@ pub(crate) mod columns;
 mod impact;
 mod judge;
 mod rough;
+mod short;
 
 use crate::impact::ImpactError;
 use crate::math::Fma;
@@ -24,7 +26,7 @@ use crate::scatter::Scatter;
 use crate::tangential::Tangential;
 use crate::tangential::micro_slip::Shape;
 use crate::validity::Validity;
-pub(crate) use judge::Limits;
+pub(crate) use judge::{Judged, Limits};
 
 /// A compiled wall law: plain numbers, SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]

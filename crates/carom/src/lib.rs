@@ -34,6 +34,7 @@ pub mod material;
 pub mod math;
 pub mod normal;
 pub mod pair;
+pub mod random;
 pub mod removal;
 pub mod resolved;
 pub mod roughness;
@@ -50,4 +51,9 @@ pub use impact::{Energy, Fate, Impact, ImpactError, Outcome, Vec3};
 pub use normal::Window;
 pub use tangential::Contact;
 pub use validity::Validity;
-pub use wall::WallLaw;
+pub use wall::{AboveYield, WallLaw};
+
+/// The examples of the crate's README are run as tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -23,6 +23,7 @@ mod window;
 
 pub use inputs::Inputs;
 pub use ledger::Ledger;
+pub(crate) use ledger::ShortList;
 pub use mechanism::{Account, Losses, Mechanism, Stage};
 pub(crate) use registry::Loops;
 pub use registry::{Loss, Term};

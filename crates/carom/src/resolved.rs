@@ -42,8 +42,9 @@ pub use history::{Moment, Scales};
 
 use crate::instructions::{self, InstructionSet};
 use crate::math::{self, Fma};
-use crate::normal::adhesion::Work;
-use crate::normal::{Losses, NormalResponse, Size, Window};
+use crate::normal::adhesion::{AdhesionDamping, Work};
+use crate::normal::damping::HertzDamping;
+use crate::normal::{Losses, NormalResponse, Size, Term, Window};
 use crate::validity::Validity;
 use motion::{Contact, Motion};
 
@@ -87,6 +88,21 @@ impl Resolved {
     /// From the constants of Ψ_A, the damping coefficients and the reading of adhesion.
     pub fn new(work: Work, damping: Damping, mode: AdhesionMode) -> Self {
         Self { work, damping, mode }
+    }
+
+    /// The greatest energy with which adhesion holds a captured sphere, over half the sphere's mass, m²/s²; the algebraic law's.
+    pub(crate) fn hold_squared(&self, size: &Size) -> f64 {
+        let v = self.work.capture_velocity(size);
+        v * v
+    }
+
+    /// The same adhesion and damping as losses of the algebraic law.
+    pub(crate) fn as_losses(&self) -> [Term; 3] {
+        [
+            Term::AdhesionWork(self.work),
+            Term::AdhesionDamping(AdhesionDamping::new(self.work, self.damping.adhesion)),
+            Term::HertzDamping(HertzDamping { coefficient: self.damping.hertz }),
+        ]
     }
 
     #[inline(always)]

@@ -83,6 +83,7 @@ pub(crate) trait FrictionLaw {
 }
 
 /// Rolling and Walton's law.
+#[derive(Clone, Copy)]
 pub(crate) struct Coulomb {
     pub friction: f64,
     pub beta: f64,

@@ -5,7 +5,7 @@
 pub struct Validity(u32);
 
 /// Codes, their bits and their meaning.
-pub const CODES: [(&str, Validity, &str); 8] = [
+pub const CODES: [(&str, Validity, &str); 11] = [
     (
         "no-rebound-window",
         Validity::NO_REBOUND_WINDOW,
@@ -42,6 +42,21 @@ pub const CODES: [(&str, Validity, &str); 8] = [
         Validity::PLASTIC_EXHAUSTED,
         "the speed is above the window of rebound: Bons' plastic loss, e ~ 1/v, leaves less than the other losses take, and the sphere is captured again",
     ),
+    (
+        "above-yield",
+        Validity::ABOVE_YIELD,
+        "the law has no plastic loss, and the speed is above the yield velocity that the strength of its materials gives (bulk and static where it comes from a table): unless damping fitted to measurements stands for it, e is too high, and eap gives less",
+    ),
+    (
+        "grazing-capture",
+        Validity::GRAZING_CAPTURE,
+        "captured by its normal speed, though its energy along the wall is more than ten times what adhesion can hold: it may slide or roll on, or leave",
+    ),
+    (
+        "adhesive-contact-large",
+        Validity::ADHESIVE_CONTACT_LARGE,
+        "adhesion alone, without load, makes a contact wider than 0.3 of the sphere's radius: no longer small, as the contact models assume, and the capture velocity is not to be trusted",
+    ),
 ];
 
 impl Validity {
@@ -63,6 +78,12 @@ impl Validity {
     pub const PULLING_HERTZ: Self = Self(64);
     /// `plastic-exhausted` (Bons' plastic loss)
     pub const PLASTIC_EXHAUSTED: Self = Self(128);
+    /// `above-yield` (laws without a plastic loss)
+    pub const ABOVE_YIELD: Self = Self(256);
+    /// `grazing-capture`
+    pub const GRAZING_CAPTURE: Self = Self(512);
+    /// `adhesive-contact-large`
+    pub const ADHESIVE_CONTACT_LARGE: Self = Self(1024);
 
     /// Both sets.
     #[must_use]

@@ -2,7 +2,7 @@
 
 use crate::impact::{Impact, ImpactError, Outcome};
 use crate::instructions::{Work, run_scalar};
-use crate::kernel::{Kernel, Limits, Tables};
+use crate::kernel::{Judged, Kernel, Limits, Tables};
 use crate::math::{BEST, Fma};
 use crate::normal::empirical::{Curve, Piece};
 use crate::normal::{NormalLaw, Size};
@@ -12,7 +12,10 @@ use crate::tangential::Tangential;
 use crate::tangential::micro_slip::Shape;
 use crate::validity::Validity;
 
+mod above_yield;
 mod figures;
+
+pub use above_yield::AboveYield;
 
 /// A wall law, compiled from a [`crate::spec::LawSpec`]. Pure: no state, no allocation per impact, no panics; usable from
 /// many threads.
@@ -87,9 +90,8 @@ impl WallLaw {
         };
         let pair = parts.about.pair.as_ref();
         let density = pair.and_then(|p| p.density().ok()).unwrap_or(1000.0);
-        let stiffness = pair.and_then(|p| p.stiffness().ok());
-        let plastic_constant = pair.and_then(|p| p.plastic_constant().ok());
-        let limits = Limits::new(&normal, stiffness, plastic_constant, density);
+        let roughness_factor = parts.about.roughness_factor;
+        let limits = Limits::new(&Judged { normal: &normal, pair, roughness_factor, density });
         let (surface_curvature, validity) = (parts.surface_curvature, parts.validity);
         Self {
             kernel: Kernel { normal, tangential, density, surface_curvature, limits, validity, scatter: parts.scatter },
@@ -168,7 +170,13 @@ impl WallLaw {
     /// ```
     #[inline]
     pub fn impact(&self, impact: &Impact) -> Result<Outcome, ImpactError> {
-        run_scalar(OneImpact { law: self, impact })
+        if let Some(answer) = self.kernel.short_impact(impact) {
+            return answer;
+        }
+        match &self.kernel.scatter {
+            None => run_scalar(OneImpact::<false> { law: self, impact }),
+            Some(_) => run_scalar(OneImpact::<true> { law: self, impact }),
+        }
     }
 
     /// As [`WallLaw::impact`], compiled into the caller for the caller's own instruction set: the same bits, and the answer need not pass
@@ -184,16 +192,21 @@ impl WallLaw {
     }
 }
 
-struct OneImpact<'a> {
+/// One impact, on a wall that scatters or not: the many facets of one would crowd the short path of the other.
+struct OneImpact<'a, const SCATTERS: bool> {
     law: &'a WallLaw,
     impact: &'a Impact,
 }
 
-impl Work for OneImpact<'_> {
+impl<const SCATTERS: bool> Work for OneImpact<'_, SCATTERS> {
     type Output = Result<Outcome, ImpactError>;
 
     #[inline(always)]
     fn run<F: Fma, const LANES: usize>(self, f: F) -> Self::Output {
-        self.law.impact_on(f, self.impact)
+        let tables = self.law.tables();
+        match &self.law.kernel.scatter {
+            Some(scatter) if SCATTERS => self.law.kernel.rough_impact(f, &tables, scatter, self.impact),
+            _ => self.law.kernel.smooth_impact(f, &tables, self.impact),
+        }
     }
 }

@@ -8,7 +8,7 @@
 use super::problem::{Form, Problem};
 use super::solve::{Minimum, descend};
 use crate::error::LabError;
-use carom_track::random::{Purpose, Stream};
+use carom::random::{Purpose, Stream};
 use serde::Serialize;
 
 /// What is drawn again.

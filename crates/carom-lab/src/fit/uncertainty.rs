@@ -110,7 +110,7 @@ fn goodness(has_sigma: bool, objective: f64, informative: usize, freedom: usize)
 
 /// Of 95 % on both sides together.
 fn quantile(has_sigma: bool, freedom: usize) -> f64 {
-    let normal = carom_track::random::normal_quantile(0.975);
+    let normal = carom::random::normal_quantile(0.975);
     if has_sigma {
         return normal;
     }

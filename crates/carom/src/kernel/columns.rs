@@ -3,13 +3,17 @@
 //! Rows go through in chunks that stay in the first-level cache. Each loss takes its share from the whole chunk in a loop of its own
 //! (so that there is one loop a loss, not one a combination of losses), then friction does.
 
-use super::impact::{NO_SLIP, Rubbed};
-use super::{Kernel, Tables, judge};
+mod row;
+
+use super::impact::NO_SLIP;
+use super::short::{OnShort, Short};
+use super::{Kernel, Tables};
 use crate::batch::{Incidence, Rebound};
 use crate::instructions::{InstructionSet, Work};
 use crate::math::{Fma, Plain, sqrt, watched};
-use crate::normal::{Account, Ledger, Loops, Losses, Mechanism, NormalLaw, NormalResponse, Size};
+use crate::normal::{Account, Ledger, Loops, Losses, Mechanism, NormalLaw, Size};
 use crate::tangential::{Coulomb, FrictionLaw, Shaped, Tangential, constant};
+use row::{Leaving, Row};
 
 /// Rows handled at once.
 const CHUNK: usize = 128;
@@ -80,18 +84,56 @@ impl Work for AllRows<'_, '_> {
 
     #[inline(always)]
     fn run<F: Fma, const LANES: usize>(self, f: F) -> bool {
-        all_rows(self.kernel, self.tables, self.rows, self.out, |kernel, tables, rows, out, between| {
-            chunk(f, kernel, tables, rows, out, between)
-        })
+        all_rows(With { f, one_loop: LANES >= MANY_REGISTERS }, self.kernel, self.tables, self.rows, self.out)
     }
 
-    /// Without fused multiply-add: branch-free emulation, and the exact one for the rare chunk where that does not suffice.
     #[inline(always)]
     fn run_portable(self) -> bool {
-        all_rows(self.kernel, self.tables, self.rows, self.out, |kernel, tables, rows, out, between| {
-            let (fine, exact) = watched(|f| chunk(f, kernel, tables, rows, out, between));
-            if exact { fine } else { chunk_exactly(kernel, tables, rows, out, between) }
-        })
+        all_rows(Emulated, self.kernel, self.tables, self.rows, self.out)
+    }
+}
+
+/// How a chunk is done: a trait, not a closure, since a closure need not be inlined and would then lose the instruction set.
+trait Chunks: Copy {
+    fn one(self, kernel: &Kernel, tables: &Tables, rows: &Rows, out: &mut Out, between: &mut Between) -> bool;
+}
+
+/// With a given fused multiply-add.
+#[derive(Clone, Copy)]
+struct With<F> {
+    f: F,
+    /// Whether a short law goes through in one loop.
+    one_loop: bool,
+}
+
+/// Lanes of the sets whose registers hold all of a short law's loop; with fewer, two loops without spills are faster than one with.
+const MANY_REGISTERS: usize = 16;
+
+impl<F: Fma> Chunks for With<F> {
+    #[inline(always)]
+    fn one(self, kernel: &Kernel, tables: &Tables, rows: &Rows, out: &mut Out, between: &mut Between) -> bool {
+        if self.one_loop && kernel.surface_curvature == 0.0 && out.more.is_none() {
+            let f = self.f;
+            if let Ok(fine) = kernel.if_short(OneLoop { f, rows, out: &mut *out }) {
+                return fine;
+            }
+        }
+        chunk(self.f, kernel, tables, rows, out, between)
+    }
+}
+
+/// Without one: branch-free emulation, and the exact one for the rare chunk where that does not suffice.
+#[derive(Clone, Copy)]
+struct Emulated;
+
+impl Chunks for Emulated {
+    #[inline(always)]
+    fn one(self, kernel: &Kernel, tables: &Tables, rows: &Rows, out: &mut Out, between: &mut Between) -> bool {
+        let (fine, exact) = watched(
+            #[inline(always)]
+            |f| chunk(f, kernel, tables, rows, out, between),
+        );
+        if exact { fine } else { chunk_exactly(kernel, tables, rows, out, between) }
     }
 }
 
@@ -102,64 +144,83 @@ fn chunk_exactly(kernel: &Kernel, tables: &Tables, rows: &Rows, out: &mut Out, b
 }
 
 #[inline(always)]
-fn all_rows(
-    kernel: &Kernel,
-    tables: &Tables,
-    rows: &Incidence,
-    out: &mut Rebound,
-    one_chunk: impl Fn(&Kernel, &Tables, &Rows, &mut Out, &mut Between) -> bool,
-) -> bool {
+fn all_rows<C: Chunks>(chunks: C, kernel: &Kernel, tables: &Tables, rows: &Incidence, out: &mut Rebound) -> bool {
     let mut between = Between { bulk: [0.0; CHUNK], left: [0.0; CHUNK], friction_share: [1.0; CHUNK] };
-    let (mut scratch_e, mut scratch_ratio) = ([0.0; CHUNK], [0.0; CHUNK]);
+    let mut scratch = [[0.0; CHUNK]; 5];
+    let [e, ratio, last_normal, last_tangential, last_spin] = &mut scratch;
     let wants_more = out.restitution.is_some() || out.impulse_ratio.is_some();
+    let last = Filled::end_of(rows);
+    let n = rows.normal.len();
     let mut all_fine = true;
-    let (normal, normal_end) = rows.normal.as_chunks::<CHUNK>();
-    let (tangential, tangential_end) = rows.tangential.as_chunks::<CHUNK>();
-    let (spin, spin_end) = rows.spin.as_chunks::<CHUNK>();
-    let (diameter, diameter_end) = rows.diameter.as_chunks::<CHUNK>();
-    let whole = normal.len();
-    for (k, (((normal, tangential), spin), diameter)) in
-        normal.iter().zip(tangential).zip(spin).zip(diameter).enumerate()
-    {
-        let range = k * CHUNK..(k + 1) * CHUNK;
-        let rows = Rows { normal, tangential, spin, diameter };
-        let (Ok(normal), Ok(tangential), Ok(spin)) = (
-            (&mut out.normal[range.clone()]).try_into(),
-            (&mut out.tangential[range.clone()]).try_into(),
-            (&mut out.spin[range.clone()]).try_into(),
-        ) else {
-            debug_assert!(false, "a range of a chunk's length");
-            continue;
+    for first in (0..n).step_by(CHUNK) {
+        let end = n.min(first + CHUNK);
+        let range = first..end;
+        let whole = Rows::of(rows, first);
+        let columns = if whole.is_some() {
+            (
+                out.normal[range.clone()].first_chunk_mut(),
+                out.tangential[range.clone()].first_chunk_mut(),
+                out.spin[range.clone()].first_chunk_mut(),
+            )
+        } else {
+            (Some(&mut *last_normal), Some(&mut *last_tangential), Some(&mut *last_spin))
         };
-        let more = wants_more.then_some((&mut scratch_e, &mut scratch_ratio));
-        all_fine &= one_chunk(kernel, tables, &rows, &mut Out { normal, tangential, spin, more }, &mut between);
-        write_more(out, range, &scratch_e, &scratch_ratio);
+        let (Some(normal), Some(tangential), Some(spin)) = columns else {
+            debug_assert!(false, "columns out are as long as those in");
+            return false;
+        };
+        let more = wants_more.then_some((&mut *e, &mut *ratio));
+        let is_last = whole.is_none();
+        let rows = whole.unwrap_or_else(|| last.rows());
+        all_fine &= chunks.one(kernel, tables, &rows, &mut Out { normal, tangential, spin, more }, &mut between);
+        if is_last {
+            let len = end - first;
+            out.normal[range.clone()].copy_from_slice(&last_normal[..len]);
+            out.tangential[range.clone()].copy_from_slice(&last_tangential[..len]);
+            out.spin[range.clone()].copy_from_slice(&last_spin[..len]);
+        }
+        write_more(out, range, e, ratio);
     }
-    if normal_end.is_empty() {
-        return all_fine;
-    }
-    // rows that are harmless impacts fill the end of the last chunk
-    let filled = |end: &[f64], with: f64| {
-        let mut column = [with; CHUNK];
-        column[..end.len()].copy_from_slice(end);
-        column
-    };
-    let last = Rows {
-        normal: &filled(normal_end, 1.0),
-        tangential: &filled(tangential_end, 0.0),
-        spin: &filled(spin_end, 0.0),
-        diameter: &filled(diameter_end, 1e-5),
-    };
-    let (mut n, mut t, mut w) = ([0.0; CHUNK], [0.0; CHUNK], [0.0; CHUNK]);
-    let more = wants_more.then_some((&mut scratch_e, &mut scratch_ratio));
-    let mut last_out = Out { normal: &mut n, tangential: &mut t, spin: &mut w, more };
-    all_fine &= one_chunk(kernel, tables, &last, &mut last_out, &mut between);
-    let range = whole * CHUNK..rows.normal.len();
-    out.normal[range.clone()].copy_from_slice(&n[..normal_end.len()]);
-    out.tangential[range.clone()].copy_from_slice(&t[..normal_end.len()]);
-    out.spin[range.clone()].copy_from_slice(&w[..normal_end.len()]);
-    write_more(out, range, &scratch_e, &scratch_ratio);
     all_fine
+}
+
+impl<'a> Rows<'a> {
+    /// The chunk that begins at row `first`, if it is whole.
+    #[inline(always)]
+    fn of(rows: &Incidence<'a>, first: usize) -> Option<Self> {
+        Some(Self {
+            normal: rows.normal[first..].first_chunk()?,
+            tangential: rows.tangential[first..].first_chunk()?,
+            spin: rows.spin[first..].first_chunk()?,
+            diameter: rows.diameter[first..].first_chunk()?,
+        })
+    }
+}
+
+/// The rows of the last chunk, with harmless impacts at its end.
+struct Filled([Column; 4]);
+
+impl Filled {
+    fn end_of(rows: &Incidence) -> Self {
+        let first = rows.normal.len() / CHUNK * CHUNK;
+        let filled = |column: &[f64], with: f64| {
+            let mut chunk = [with; CHUNK];
+            let end = &column[first..];
+            chunk[..end.len()].copy_from_slice(end);
+            chunk
+        };
+        Self([
+            filled(rows.normal, 1.0),
+            filled(rows.tangential, 0.0),
+            filled(rows.spin, 0.0),
+            filled(rows.diameter, 1e-5),
+        ])
+    }
+
+    fn rows(&self) -> Rows<'_> {
+        let [normal, tangential, spin, diameter] = &self.0;
+        Rows { normal, tangential, spin, diameter }
+    }
 }
 
 #[inline(always)]
@@ -183,6 +244,30 @@ fn chunk<F: Fma>(f: F, kernel: &Kernel, tables: &Tables, rows: &Rows, out: &mut 
     match out.more {
         None => along_the_wall::<_, false>(f, kernel, tables, rows, out, between),
         Some(_) => along_the_wall::<_, true>(f, kernel, tables, rows, out, between),
+    }
+}
+
+/// A short law on a flat wall in one loop.
+struct OneLoop<'a, 'b, F> {
+    f: F,
+    rows: &'a Rows<'a>,
+    out: &'a mut Out<'b>,
+}
+
+impl<F: Fma> OnShort for OneLoop<'_, '_, F> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run<B: Mechanism>(self, law: &Short<B>) -> bool {
+        let (bulk, work, friction) = (law.bulk, *law.work, law.friction);
+        let law = Short { bulk, work: &work, friction };
+        let mut fine = true;
+        for i in 0..CHUNK {
+            let row = Row::at(self.rows, i);
+            let e = law.balance(self.f, row.v_n, &Size::flat(0.5 * row.diameter)).restitution();
+            fine &= row.rub::<_, _, false>(self.f, &law.friction, e, 1.0, self.out, i);
+        }
+        fine
     }
 }
 
@@ -314,70 +399,8 @@ fn rub<F: Fma, L: FrictionLaw, const MORE: bool>(
     friction_share: impl Fn(usize) -> f64,
 ) -> bool {
     let mut fine = true;
-    for i in 0..CHUNK {
-        let (row, e) = (Row::at(rows, i), e[i]);
-        let radius = 0.5 * row.diameter;
-        let normal_impulse = (1.0 + e) * row.v_n;
-        let slip = f.fma(-radius, row.spin, row.v_t);
-        let response = NormalResponse { e, losses: Losses::default(), friction_share: friction_share(i) };
-        let rubbed = Rubbed::new(f, law, slip.abs(), normal_impulse, &response);
-        let direction = if slip < 0.0 { -1.0 } else { 1.0 };
-        let rebound = Leaving {
-            e,
-            v_t: row.v_t - direction * rubbed.impulse,
-            spin: rubbed.spin(radius) * direction + row.spin,
-            ratio: rubbed.impulse / normal_impulse,
-        };
-        fine &= row.write::<_, MORE>(f, true, &rebound, out, i);
+    for (i, e) in e.iter().enumerate() {
+        fine &= Row::at(rows, i).rub::<_, _, MORE>(f, law, *e, friction_share(i), out, i);
     }
     fine
-}
-
-#[derive(Clone, Copy)]
-struct Row {
-    v_n: f64,
-    v_t: f64,
-    spin: f64,
-    diameter: f64,
-}
-
-/// How a row leaves, if it does.
-struct Leaving {
-    e: f64,
-    v_t: f64,
-    spin: f64,
-    ratio: f64,
-}
-
-impl Row {
-    #[inline(always)]
-    fn at(rows: &Rows, i: usize) -> Self {
-        Self { v_n: rows.normal[i], v_t: rows.tangential[i], spin: rows.spin[i], diameter: rows.diameter[i] }
-    }
-
-    /// Writes the row: the rebound, zeros for a capture, NaN for a row that is no impact or was not answered.
-    #[inline(always)]
-    fn write<F: Fma, const MORE: bool>(
-        &self,
-        f: F,
-        answered: bool,
-        leaving: &Leaving,
-        out: &mut Out,
-        i: usize,
-    ) -> bool {
-        let fine = judge::row_is_fine(f, self.v_n, self.v_t, self.spin, self.diameter) & answered;
-        let rebounds = leaving.e > 0.0;
-        let pick = |value: f64, captured: f64| {
-            let settled = if rebounds { value } else { captured };
-            if fine { settled } else { f64::NAN }
-        };
-        out.normal[i] = pick(leaving.e * self.v_n, 0.0);
-        out.tangential[i] = pick(leaving.v_t, 0.0);
-        out.spin[i] = pick(leaving.spin, 0.0);
-        if MORE && let Some((e, ratio)) = &mut out.more {
-            e[i] = pick(leaving.e, 0.0);
-            ratio[i] = pick(leaving.ratio, f64::NAN);
-        }
-        fine
-    }
 }

@@ -4,7 +4,7 @@
 use super::{Kernel, Tables, judge};
 use crate::impact::{Energy, Fate, Impact, ImpactError, Outcome, Vec3};
 use crate::math::{self, Fma};
-use crate::normal::NormalResponse;
+use crate::normal::{NormalResponse, Size};
 use crate::tangential::{Contact, Coulomb, FrictionLaw, Shaped, Tangential};
 use crate::validity::Validity;
 use crate::vector::{add_scaled, cross, dot, minus, norm, plus};
@@ -27,7 +27,13 @@ impl Kernel {
 
     /// One impact on the wall, or the facet, whose normal it names.
     #[inline(always)]
-    pub(super) fn smooth_impact<F: Fma>(&self, f: F, tables: &Tables, impact: &Impact) -> Result<Outcome, ImpactError> {
+    pub(crate) fn smooth_impact<F: Fma>(&self, f: F, tables: &Tables, impact: &Impact) -> Result<Outcome, ImpactError> {
+        self.impact_by(f, &AnyLaw { kernel: self, tables }, impact)
+    }
+
+    /// One impact by a law given as a type.
+    #[inline(always)]
+    pub(super) fn impact_by<F: Fma, L: Laws>(&self, f: F, laws: &L, impact: &Impact) -> Result<Outcome, ImpactError> {
         let normal = judge::unit_normal(f, &impact.normal)?;
         let size = self.size(f, impact.diameter, impact.density)?;
         let u = impact.wall_velocity;
@@ -40,15 +46,16 @@ impl Kernel {
         let incident = f.fma(v_n, v_n, tangent2 + rotational);
         judge::approach(v_n, incident)?;
         let share = 1.0 / incident;
-        let response = self.normal.respond(f, tables.pieces, v_n, tangent2, &size);
-        let validity = self.judge(f, v_n, &size, &response);
+        let response = laws.respond(f, v_n, tangent2, &size);
+        let validity =
+            laws.judge(f, self, v_n, &size, &response).with(self.scale_warnings(v_n, tangent2, &size, &response));
         let normal_share = v_n * v_n * share;
         let energy = normal_energy(&response, normal_share);
         if response.e <= 0.0 {
             return Ok(captured(u, energy, validity));
         }
         let motion = Motion { tangent, tangent2, normal, v_n, spin: impact.spin, radius: size.radius };
-        let out = self.slide(f, tables, &motion, &response)?;
+        let out = laws.slide(f, &motion, &response)?;
         let velocity = add_scaled(f, &out.tangent, response.e * v_n, &normal);
         let friction = out.friction * share;
         Ok(Outcome {
@@ -64,16 +71,37 @@ impl Kernel {
             validity,
         })
     }
+}
+
+/// A normal and a tangential law together, as a type: the laws that most impacts have get code of their own, without branches on what a
+/// law might be.
+pub(super) trait Laws {
+    fn respond<F: Fma>(&self, f: F, v_n: f64, tangent2: f64, size: &Size) -> NormalResponse;
+    fn judge<F: Fma>(&self, f: F, kernel: &Kernel, v_n: f64, size: &Size, response: &NormalResponse) -> Validity;
+    fn slide<F: Fma>(&self, f: F, motion: &Motion, response: &NormalResponse) -> Result<Slid, ImpactError>;
+}
+
+/// Whatever the kernel says.
+struct AnyLaw<'a> {
+    kernel: &'a Kernel,
+    tables: &'a Tables<'a>,
+}
+
+impl Laws for AnyLaw<'_> {
+    #[inline(always)]
+    fn respond<F: Fma>(&self, f: F, v_n: f64, tangent2: f64, size: &Size) -> NormalResponse {
+        self.kernel.normal.respond(f, self.tables.pieces, v_n, tangent2, size)
+    }
 
     #[inline(always)]
-    fn slide<F: Fma>(
-        &self,
-        f: F,
-        tables: &Tables,
-        motion: &Motion,
-        response: &NormalResponse,
-    ) -> Result<Slid, ImpactError> {
-        match self.tangential {
+    fn judge<F: Fma>(&self, f: F, kernel: &Kernel, v_n: f64, size: &Size, response: &NormalResponse) -> Validity {
+        kernel.judge(f, v_n, size, response)
+    }
+
+    #[inline(always)]
+    fn slide<F: Fma>(&self, f: F, motion: &Motion, response: &NormalResponse) -> Result<Slid, ImpactError> {
+        let tables = self.tables;
+        match self.kernel.tangential {
             Tangential::Friction { friction, beta } => Ok(motion.rub(f, &Coulomb { friction, beta }, response)),
             Tangential::MicroSlip(slip) => Ok(motion.rub(f, &Shaped { slip, shape: tables.shape }, response)),
             Tangential::Restitution(curve) => {
@@ -95,7 +123,7 @@ impl Kernel {
 }
 
 /// The motion of a sphere that meets a wall, in space and relative to the wall.
-struct Motion {
+pub(super) struct Motion {
     tangent: Vec3,
     tangent2: f64,
     normal: Vec3,
@@ -105,7 +133,7 @@ struct Motion {
 }
 
 /// What the contact made of the motion along the wall.
-struct Slid {
+pub(super) struct Slid {
     tangent: Vec3,
     spin: Vec3,
     ratio: f64,
@@ -128,7 +156,7 @@ impl Motion {
 
     /// Friction against the slip.
     #[inline(always)]
-    fn rub<F: Fma, L: FrictionLaw>(&self, f: F, law: &L, response: &NormalResponse) -> Slid {
+    pub(super) fn rub<F: Fma, L: FrictionLaw>(&self, f: F, law: &L, response: &NormalResponse) -> Slid {
         let (slip, speed) = self.slip(f);
         let normal_impulse = (1.0 + response.e) * self.v_n;
         let per_tangent = if self.tangent2 > 0.0 { 1.0 / self.tangent2 } else { f64::NAN };

@@ -3,7 +3,9 @@
 use super::Kernel;
 use crate::impact::{ImpactError, Vec3};
 use crate::math::{self, Fma};
-use crate::normal::{Ledger, Loss, NormalLaw, NormalResponse, Size, plastic::LAMBDA};
+use crate::normal::plastic::{Kadomtsev, LAMBDA};
+use crate::normal::{Loss, NormalLaw, NormalResponse, Size};
+use crate::pair::Pair;
 use crate::validity::Validity;
 use crate::vector::dot;
 use core::f64::consts::PI;
@@ -47,6 +49,12 @@ pub(super) fn row_is_fine<F: Fma>(f: F, v_n: f64, v_t: f64, spin: f64, diameter:
     (v_n > 1e-150) & (incident <= 3.0 * FASTEST * FASTEST) & (1e-10..=10.0).contains(&diameter)
 }
 
+/// Radius of the contact that adhesion makes without load, over the sphere's, that the contact models are trusted to: the slope of a sphere
+/// is there 5 % steeper than that of the paraboloid in its place (Maugis 1995, <https://doi.org/10.1021/la00002a055>, treats what is beyond).
+const LARGE_AT_REST: f64 = 0.3;
+/// Energy along the wall, over what adhesion holds, beyond which a capture is called into question.
+const GRAZING: f64 = 10.0;
+
 /// Where the contact models end, as numbers that an impact is compared with.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Limits {
@@ -54,18 +62,51 @@ pub(crate) struct Limits {
     elastic: f64,
     /// Kadomtsev: (a/R)³ = this · κ³ · y³, with y³ = e_pl² (v/V_y)²; zero for other laws.
     plastic: f64,
+    /// V_y² of a law that knows no yielding, on a flat wall at the law's own density; infinite where it is not judged.
+    yield_squared: f64,
+    /// Adhesion without load: (a/R)³ = (0.3)³ this · κ²/R, m; zero where it is not judged.
+    at_rest: f64,
+}
+
+/// What the limits of a law follow from, SI units.
+pub(crate) struct Judged<'a> {
+    pub normal: &'a NormalLaw,
+    /// The law's materials.
+    pub pair: Option<&'a Pair>,
+    /// C_R.
+    pub roughness_factor: f64,
+    /// Density of the law's own sphere, kg/m³.
+    pub density: f64,
 }
 
 impl Limits {
+    /// No limit at all.
+    const NONE: Self = Self { elastic: 0.0, plastic: 0.0, yield_squared: f64::INFINITY, at_rest: 0.0 };
+
     /// Hertz gives a_m⁵ = 5r²mv²/(4K) (Kim & Dunn 2007, Eq. 20); Kadomtsev a² = F_max/η, so a/R = κ y (3η/4E*). Other plastic
-    /// laws are judged by the elastic radius, which is smaller than theirs. Laws without a stiffness are never judged.
-    pub(crate) fn new(normal: &NormalLaw, stiffness: Option<f64>, plastic_constant: Option<f64>, density: f64) -> Self {
-        let Some(k) = stiffness else { return Self { elastic: 0.0, plastic: 0.0 } };
+    /// laws are judged by the elastic radius, which is smaller than theirs. JKR without load: a³ = 6πw r²/K, w reduced by C_R as the
+    /// adhesion is. Laws without a stiffness are never judged.
+    pub(crate) fn new(law: &Judged) -> Self {
+        let Some(k) = law.pair.and_then(|p| p.stiffness().ok()) else { return Self::NONE };
+        if matches!(law.normal, NormalLaw::Table(_)) {
+            return Self::NONE;
+        }
+        let plastic_constant = law.pair.and_then(|p| p.plastic_constant().ok());
         let yields_as_kadomtsev =
-            matches!(normal, NormalLaw::Ledger(l) if l.terms().any(|t| t.loss() == Loss::PlasticKadomtsev));
+            matches!(law.normal, NormalLaw::Ledger(l) if l.terms().any(|t| t.loss() == Loss::PlasticKadomtsev));
         let plastic = plastic_constant.filter(|_| yields_as_kadomtsev).map_or(0.0, |c| PI * LAMBDA * c / k);
-        let elastic = if matches!(normal, NormalLaw::Table(_)) { 0.0 } else { 5.0 * PI / 3.0 * density / k };
-        Self { elastic, plastic: plastic * plastic * plastic }
+        let yield_squared = plastic_constant
+            .filter(|_| law.normal.is_elastic())
+            .map_or(f64::INFINITY, |c| Kadomtsev::new(0.75 * k, c, law.density).yield_squared);
+        let work = law.pair.and_then(|p| p.work_of_adhesion().ok()).unwrap_or(0.0);
+        let adhesion = law.normal.adhesive_contact(law.roughness_factor) * work;
+        let large = LARGE_AT_REST * LARGE_AT_REST * LARGE_AT_REST;
+        Self {
+            elastic: 5.0 * PI / 3.0 * law.density / k,
+            plastic: plastic * plastic * plastic,
+            yield_squared,
+            at_rest: 6.0 * PI * adhesion / (k * large),
+        }
     }
 
     /// Is the greatest contact radius larger than a third of the sphere's?
@@ -78,6 +119,14 @@ impl Limits {
         let l2 = LARGE * LARGE;
         self.elastic * size.density_ratio * k2 * (v * v) > l2 * l2 * LARGE
     }
+
+    /// What is said of every law with a contact: whether it should have yielded, and how wide adhesion alone makes the contact.
+    #[inline(always)]
+    fn contact_warnings(&self, v: f64, size: &Size) -> Validity {
+        let k2 = size.kappa * size.kappa;
+        let yields = v * v * size.density_ratio > self.yield_squared * (k2 * size.kappa);
+        Validity::ABOVE_YIELD.when(yields).with(Validity::ADHESIVE_CONTACT_LARGE.when(self.at_rest * k2 > size.radius))
+    }
 }
 
 impl Kernel {
@@ -88,16 +137,7 @@ impl Kernel {
         match &self.normal {
             NormalLaw::Table(_) => validity,
             NormalLaw::Ledger(ledger) => {
-                let yield_squared = ledger.yield_squared(size);
-                let kept = 1.0 - response.losses.plastic;
-                let large = self.limits.contact_is_large(v, size, kept, yield_squared);
-                let overlap = v * v > yield_squared && ledger.is_damped();
-                let mut validity =
-                    validity.with(Validity::LARGE_CONTACT.when(large)).with(Validity::LOSSES_OVERLAP.when(overlap));
-                if response.e <= 0.0 {
-                    validity = validity.with(why_captured(f, ledger, v, size));
-                }
-                validity
+                self.judge_ledger(f, ledger.yield_squared(size), ledger.is_damped(), v, size, response)
             }
             NormalLaw::Resolved(resolved) => {
                 let large = self.limits.contact_is_large(v, size, 1.0, f64::INFINITY);
@@ -107,9 +147,56 @@ impl Kernel {
     }
 }
 
+impl Kernel {
+    /// The warnings about an impact of a list of losses, given its yield velocity and whether damping is among them.
+    #[inline(always)]
+    pub(super) fn judge_ledger<F: Fma>(
+        &self,
+        f: F,
+        yield_squared: f64,
+        is_damped: bool,
+        v: f64,
+        size: &Size,
+        response: &NormalResponse,
+    ) -> Validity {
+        let kept = 1.0 - response.losses.plastic;
+        let large = self.limits.contact_is_large(v, size, kept, yield_squared);
+        let overlap = v * v > yield_squared && is_damped;
+        let validity =
+            self.validity.with(Validity::LARGE_CONTACT.when(large)).with(Validity::LOSSES_OVERLAP.when(overlap));
+        if response.e <= 0.0 { validity.with(why_captured(f, &self.normal, v, size)) } else { validity }
+    }
+}
+
+impl Kernel {
+    /// The warnings about materials at the scale of the contact, whatever the law; `tangent2` is the square of the speed along the wall.
+    #[inline(always)]
+    pub(super) fn scale_warnings(&self, v: f64, tangent2: f64, size: &Size, response: &NormalResponse) -> Validity {
+        let warnings = self.limits.contact_warnings(v, size);
+        // below 45° a capture may be one that adhesion cannot hold
+        if response.e <= 0.0 && tangent2 > v * v {
+            return warnings.with(grazing(&self.normal, tangent2, size));
+        }
+        warnings
+    }
+}
+
+/// Captured by the normal speed: is the energy along the wall far above the greatest that the law's own adhesion takes from a sphere which
+/// it captures head-on? An impact with that energy along the normal would have rebounded with ease.
+#[cold]
+fn grazing(normal: &NormalLaw, tangent2: f64, size: &Size) -> Validity {
+    let hold = match normal {
+        NormalLaw::Ledger(ledger) => ledger.terms().find_map(|t| t.hold_squared(size)),
+        NormalLaw::Resolved(resolved) => Some(resolved.hold_squared(size)),
+        NormalLaw::Table(_) => None,
+    };
+    Validity::GRAZING_CAPTURE.when(hold.is_some_and(|h| tangent2 > GRAZING * h))
+}
+
 /// A ledger left nothing: below the window (capture, no warning), above it, or without one.
 #[cold]
-fn why_captured<F: Fma>(f: F, ledger: &Ledger, v: f64, size: &Size) -> Validity {
+fn why_captured<F: Fma>(f: F, normal: &NormalLaw, v: f64, size: &Size) -> Validity {
+    let NormalLaw::Ledger(ledger) = normal else { return Validity::NONE };
     if !ledger.can_exhaust() {
         return Validity::NONE;
     }

@@ -8,7 +8,7 @@ use crate::vector::{add_scaled, dot, minus, norm, plus};
 
 impl Kernel {
     #[inline(always)]
-    pub(super) fn rough_impact<F: Fma>(
+    pub(crate) fn rough_impact<F: Fma>(
         &self,
         f: F,
         tables: &Tables,

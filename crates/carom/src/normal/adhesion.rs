@@ -133,6 +133,7 @@ impl Mechanism for Work {
     const STAGE: Stage = Stage::Surface;
     const KEYS: &'static [&'static str] = &[];
     const ROUGHNESS: bool = true;
+    const ADHESIVE_CONTACT: bool = true;
 
     fn from_law(law: &Inputs) -> Result<Self, SpecError> {
         Self::of(law)
@@ -150,6 +151,12 @@ impl Mechanism for Work {
 
     fn capture_velocity(&self, size: &Size) -> Option<f64> {
         Some(Work::capture_velocity(self, size))
+    }
+
+    /// The work at the fastest approach that it captures, where it equals the kinetic energy.
+    fn hold_squared(&self, size: &Size) -> Option<f64> {
+        let v = Work::capture_velocity(self, size);
+        Some(v * v)
     }
 
     fn exhaustion(&self, _: &Size) -> Option<(f64, Validity)> {
@@ -175,6 +182,7 @@ impl Mechanism for AdhesionDamping {
     const STAGE: Stage = Stage::Surface;
     const KEYS: &'static [&'static str] = &["adhesion_damping"];
     const ROUGHNESS: bool = true;
+    const ADHESIVE_CONTACT: bool = true;
 
     fn from_law(law: &Inputs) -> Result<Self, SpecError> {
         let work = Work::of(law)?;
@@ -271,6 +279,7 @@ impl Mechanism for Jkr {
         "energy that tearing a JKR contact takes, (V_s/v)² (Thornton & Ning 1998); knows no roughness";
     const STAGE: Stage = Stage::Surface;
     const KEYS: &'static [&'static str] = &[];
+    const ADHESIVE_CONTACT: bool = true;
 
     fn from_law(law: &Inputs) -> Result<Self, SpecError> {
         let pair = law.pair()?;
@@ -286,6 +295,11 @@ impl Mechanism for Jkr {
 
     fn capture_velocity(&self, size: &Size) -> Option<f64> {
         Some(math::sqrt(self.sticking_velocity_squared(size)))
+    }
+
+    /// The work of tearing a resting sphere off.
+    fn hold_squared(&self, size: &Size) -> Option<f64> {
+        Some(self.sticking_velocity_squared(size))
     }
 }
 

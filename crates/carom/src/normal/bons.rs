@@ -69,6 +69,7 @@ impl Mechanism for Bons {
     const ABOUT: &'static str =
         "energy an elastic bar can store at yield, e = V_y/v above it (Bons et al. 2017, as derived here)";
     const STAGE: Stage = Stage::Bulk;
+    const ELASTIC: bool = false;
     const KEYS: &'static [&'static str] = &["plastic_constant"];
 
     fn from_law(law: &Inputs) -> Result<Self, SpecError> {

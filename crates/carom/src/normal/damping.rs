@@ -37,6 +37,8 @@ pub struct HertzDamping {
 }
 
 impl HertzDamping {
+    pub(crate) const NONE: Self = Self { coefficient: 0.0 };
+
     /// Fraction of the normal kinetic energy lost at approach speed `v` (m/s).
     #[inline(always)]
     pub fn fraction(&self, v: f64) -> f64 {

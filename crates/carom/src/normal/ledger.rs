@@ -8,7 +8,10 @@
 //! contact radius, and damping fitted on elastic contacts beside a plastic loss may count energy twice (`losses-overlap`).
 
 use super::Size;
+use super::adhesion::Work;
+use super::damping::HertzDamping;
 use super::mechanism::{Account, Losses, Stage};
+use super::plastic::Kadomtsev;
 use super::registry::{Loss, Term};
 use crate::math::{BEST, Fma};
 
@@ -21,6 +24,15 @@ pub struct Ledger {
     terms: [Option<Term>; MOST_LOSSES],
     bulk: u8,
     count: u8,
+    yields: bool,
+}
+
+/// The losses of the paper's two laws.
+pub(crate) enum ShortList<'a> {
+    /// EA: adhesion work, its damping joined to it, and Hertzian damping.
+    Elastic(HertzDamping, &'a Work),
+    /// EAP without damping in the bodies.
+    ElasticPlastic(&'a Kadomtsev, &'a Work),
 }
 
 /// Two losses that cannot share a ledger.
@@ -33,7 +45,7 @@ impl Ledger {
     /// # Errors
     /// Two losses of a kind.
     pub fn new(terms: impl IntoIterator<Item = Term>) -> Result<Self, TwoOfAKind> {
-        let mut ledger = Self { terms: [None; MOST_LOSSES], bulk: 0, count: 0 };
+        let mut ledger = Self { terms: [None; MOST_LOSSES], bulk: 0, count: 0, yields: false };
         for term in terms {
             ledger.add(term)?;
         }
@@ -54,6 +66,7 @@ impl Ledger {
         self.terms[place..=usize::from(self.count)].rotate_right(1);
         self.terms[place] = Some(term);
         self.count += 1;
+        self.yields |= term.yield_squared(&Size::flat(1e-5)).is_finite();
         self.bulk += u8::from(term.stage() == Stage::Bulk);
         Ok(())
     }
@@ -101,6 +114,21 @@ impl Ledger {
         account
     }
 
+    /// The paper's two laws, whose impacts have paths of their own (`kernel/short.rs`).
+    #[inline(always)]
+    pub(crate) fn short(&self) -> Option<ShortList<'_>> {
+        match self.stages() {
+            ([], [Some(Term::AdhesionWork(work))]) => Some(ShortList::Elastic(HertzDamping::NONE, work)),
+            ([Some(Term::HertzDamping(damping))], [Some(Term::AdhesionWork(work))]) => {
+                Some(ShortList::Elastic(*damping, work))
+            }
+            ([Some(Term::PlasticKadomtsev(plastic))], [Some(Term::AdhesionWork(work))]) => {
+                Some(ShortList::ElasticPlastic(plastic, work))
+            }
+            _ => None,
+        }
+    }
+
     /// What is left of the normal kinetic energy at approach speed `v` (m/s): e² where it is above zero.
     pub fn left(&self, v: f64, size: &Size) -> f64 {
         self.balance(BEST, v, size).left
@@ -131,6 +159,9 @@ impl Ledger {
     /// (V_y)², infinite without a plastic loss; cheap enough for every impact.
     #[inline(always)]
     pub(crate) fn yield_squared(&self, size: &Size) -> f64 {
+        if !self.yields {
+            return f64::INFINITY;
+        }
         let (bulk, _) = self.stages();
         bulk.iter().flatten().fold(f64::INFINITY, |least, term| least.min(term.yield_squared(size)))
     }

@@ -75,6 +75,10 @@ pub trait Mechanism: Copy {
     const KEYS: &'static [&'static str];
     /// Does it scale with the roughness factor C_R?
     const ROUGHNESS: bool = false;
+    /// Does it take the bodies to stay elastic, or say nothing of it? A plastic loss does not, nor does a measured restitution.
+    const ELASTIC: bool = true;
+    /// Does it stand for adhesion on a contact that deforms (JKR and its kin)?
+    const ADHESIVE_CONTACT: bool = false;
 
     /// From a law's materials and keys.
     ///
@@ -105,6 +109,11 @@ pub trait Mechanism: Copy {
     /// The speed (m/s) at and below which it alone takes everything (or less than that, where it depends on what others leave); `None`
     /// for a loss that never captures at low speed.
     fn capture_velocity(&self, _size: &Size) -> Option<f64> {
+        None
+    }
+
+    /// For adhesion: the greatest energy with which it holds a captured sphere, over half the sphere's mass, m²/s². `None` for other losses.
+    fn hold_squared(&self, _size: &Size) -> Option<f64> {
         None
     }
 

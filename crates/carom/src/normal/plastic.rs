@@ -78,6 +78,7 @@ impl Mechanism for Kadomtsev {
     const KIND: &'static str = PLASTIC_LOSS;
     const ABOUT: &'static str = "elastic-plastic contact of the EAP model (Kadomtsev; Kim & Dunn 2007, Eqs 29-34)";
     const STAGE: Stage = Stage::Bulk;
+    const ELASTIC: bool = false;
     const KEYS: &'static [&'static str] = &["plastic_constant"];
 
     fn from_law(law: &Inputs) -> Result<Self, SpecError> {

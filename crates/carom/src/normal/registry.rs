@@ -97,6 +97,18 @@ macro_rules! losses {
                 match self { $(Self::$loss(m) => Mechanism::yield_squared(m, size),)* }
             }
 
+            pub(crate) fn is_elastic(&self) -> bool {
+                match self { $(Self::$loss(_) => $mechanism::ELASTIC,)* }
+            }
+
+            pub(crate) fn is_adhesive_contact(&self) -> bool {
+                match self { $(Self::$loss(_) => $mechanism::ADHESIVE_CONTACT,)* }
+            }
+
+            pub(crate) fn hold_squared(&self, size: &Size) -> Option<f64> {
+                match self { $(Self::$loss(m) => m.hold_squared(size),)* }
+            }
+
             pub(crate) fn is_idle(&self) -> bool {
                 match self { $(Self::$loss(m) => m.is_idle(),)* }
             }

@@ -2,7 +2,7 @@
 
 use super::empirical::{Lookup, Piece};
 use super::mechanism::{Account, Losses};
-use super::{Ledger, Size};
+use super::{Ledger, Size, Term};
 use crate::math::{self, Fma};
 use crate::resolved::Resolved;
 
@@ -46,6 +46,28 @@ impl NormalResponse {
 }
 
 impl NormalLaw {
+    /// Does it take the bodies to stay elastic? A curve by angle says nothing of them.
+    pub(crate) fn is_elastic(&self) -> bool {
+        match self {
+            Self::Ledger(ledger) => ledger.terms().all(Term::is_elastic),
+            Self::Table(_) => false,
+            Self::Resolved(_) => true,
+        }
+    }
+
+    /// The factor on the work of adhesion that its adhesive contact has, C_R or 1; 0 without one.
+    pub(crate) fn adhesive_contact(&self, roughness_factor: f64) -> f64 {
+        match self {
+            Self::Ledger(ledger) => ledger
+                .terms()
+                .filter(|t| t.is_adhesive_contact())
+                .map(|t| if t.loss().uses_roughness() { roughness_factor } else { 1.0 })
+                .fold(0.0, f64::max),
+            Self::Table(_) => 0.0,
+            Self::Resolved(_) => roughness_factor,
+        }
+    }
+
     /// `tangent2` is the square of the tangential speed, `pieces` those of the law's curves.
     #[inline(always)]
     pub(crate) fn respond<F: Fma>(

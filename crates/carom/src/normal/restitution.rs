@@ -42,6 +42,7 @@ impl Mechanism for GivenRestitution {
     const KIND: &'static str = "given restitution";
     const ABOUT: &'static str = "one number for what deformation takes, 1 - e^2 (Dahneke 1971)";
     const STAGE: Stage = Stage::Bulk;
+    const ELASTIC: bool = false;
     const KEYS: &'static [&'static str] = &["restitution"];
 
     fn from_law(law: &Inputs) -> Result<Self, SpecError> {

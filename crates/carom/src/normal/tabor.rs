@@ -94,6 +94,7 @@ impl Mechanism for Tabor {
     const KIND: &'static str = PLASTIC_LOSS;
     const ABOUT: &'static str = "indentation with work hardening, fitted (Tabor 1948; Kim & Dunn 2007, Eqs 41-43)";
     const STAGE: Stage = Stage::Bulk;
+    const ELASTIC: bool = false;
     const KEYS: &'static [&'static str] = &["yield_velocity", "meyer_index"];
 
     fn from_law(law: &Inputs) -> Result<Self, SpecError> {

@@ -68,6 +68,7 @@ impl Mechanism for ThorntonNing {
     const KIND: &'static str = PLASTIC_LOSS;
     const ABOUT: &'static str = "elastic, perfectly plastic spheres (Thornton & Ning 1998; Kim & Dunn 2007, Eq. 44)";
     const STAGE: Stage = Stage::Bulk;
+    const ELASTIC: bool = false;
     const KEYS: &'static [&'static str] = &["limiting_pressure", "plastic_constant"];
 
     fn from_law(law: &Inputs) -> Result<Self, SpecError> {

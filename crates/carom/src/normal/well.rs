@@ -155,6 +155,11 @@ impl Mechanism for AdhesionWell {
         (out > 0.0).then(|| math::sqrt(out - within))
     }
 
+    /// The depth on the way out.
+    fn hold_squared(&self, size: &Size) -> Option<f64> {
+        Some(self.depths(size).1)
+    }
+
     fn is_idle(&self) -> bool {
         match self {
             Self::Depths { out, .. } => *out == 0.0,

@@ -5,14 +5,14 @@
 //! threads, on the order of work or on where a run was interrupted. The generator passes BigCrush.
 //!
 //! ```
-//! use carom_track::random::{Purpose, Stream};
+//! use carom::random::{Purpose, Stream};
 //! let mut a = Stream::new(1, 42, Purpose::Wall, 3);
 //! let first = a.uniform();
 //! assert_eq!(first, Stream::new(1, 42, Purpose::Wall, 3).uniform());
 //! assert_ne!(first, a.uniform());
 //! ```
 
-pub use carom::math::normal::normal_quantile;
+pub use crate::math::normal::normal_quantile;
 
 /// Ten rounds of Philox on a counter of four words with a key of two.
 #[inline]
@@ -91,7 +91,7 @@ impl Stream {
     /// `N` uniforms in [0, 1).
     #[inline]
     pub fn uniforms<const N: usize>(&mut self) -> [f64; N] {
-        std::array::from_fn(|_| self.uniform())
+        core::array::from_fn(|_| self.uniform())
     }
 
     /// A standard normal deviate, within ±8.3.
@@ -103,15 +103,18 @@ impl Stream {
     /// `N` independent standard normal deviates.
     #[inline]
     pub fn normals<const N: usize>(&mut self) -> [f64; N] {
-        std::array::from_fn(|_| self.normal())
+        core::array::from_fn(|_| self.normal())
     }
 
     /// A unit vector, uniform over the sphere.
     pub fn direction(&mut self) -> [f64; 3] {
         loop {
             // three normals have no preferred direction; all zero is possible in principle only
-            if let Some(n) = crate::vector::unit(self.normals()) {
-                return n;
+            let [x, y, z]: [f64; 3] = self.normals();
+            let length = crate::math::sqrt(x * x + y * y + z * z);
+            if length > 0.0 {
+                let scale = 1.0 / length;
+                return [x * scale, y * scale, z * scale];
             }
         }
     }
