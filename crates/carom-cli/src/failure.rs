@@ -89,7 +89,7 @@ impl From<ReportError> for Failure {
 impl From<TableError> for Failure {
     fn from(error: TableError) -> Self {
         match &error {
-            TableError::UnknownExtension { .. } => Self::Input(error.to_string()),
+            TableError::UnknownExtension { .. } | TableError::Feature { .. } => Self::Input(error.to_string()),
             TableError::File { path, source } => of_file(&path.display().to_string(), source),
             TableError::Stream(source) => Self::from_output(source),
             _ => Self::Other(error.to_string()),

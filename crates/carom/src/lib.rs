@@ -52,3 +52,8 @@ pub use normal::Window;
 pub use tangential::Contact;
 pub use validity::Validity;
 pub use wall::{AboveYield, WallLaw};
+
+/// The examples of the crate's README are run as tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
