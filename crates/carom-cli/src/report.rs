@@ -168,6 +168,10 @@ fn deposits(page: &mut Report, ends: &Ends, summary: &Summary) -> Result<(), Fai
             let name = &summary.walls[*wall].name;
             page.subsection(name)
                 .figure(&plot.svg()?, &format!("Mass kept by {name} along {axis}, where it lies widest."));
+            if let Some((map, [across, up])) = figures::map(ends, *wall) {
+                let seen = format!("Where {name} kept mass, over {across} and {up}; deposit.vtp has it face by face.");
+                page.figure(&map.svg()?, &seen);
+            }
         }
     }
     if let Some(plot) = figures::efficiency(&ends.sizes, summary, &walls) {

@@ -9,6 +9,22 @@
 //! The font is DejaVu Sans (Bitstream Vera licence), from the `dejavu` crate.
 //! Every file is written beside its target under a temporary name and renamed when it is whole,
 //! so an error leaves no half-written file.
+//!
+//! # How do I ...
+//!
+//! | ... | look at |
+//! |---|---|
+//! | draw lines, points with error bars, bands, histograms | [`Plot`], [`Series`] |
+//! | colour cells by value | [`HeatMap`] |
+//! | mark a value, or draw walls and paths to scale | [`plot::Reference`], [`Plot::wall`], [`Plot::equal_aspect`] |
+//! | put figures and tables into one HTML file | [`Report`] |
+//!
+//! # Features
+//!
+//! | feature | default | what it brings |
+//! |---|---|---|
+//! | `png` | yes | plots as pixels (`tiny-skia`); without it `.png` is refused by name |
+//! | `parquet` | yes | tables as Parquet, by `carom-table`'s feature |
 
 mod error;
 pub mod html;

@@ -237,6 +237,9 @@ fn run_on(
         Output::open(folder, fresh, found, options.checkpoint_every, &note, disk)
     };
     let mut output = options.out.as_ref().map(open).transpose()?;
+    if let Some(output) = &output {
+        output.write_triangles(case.domain.walls())?;
+    }
     let next = output.as_ref().map_or(particles.start, |o| o.state.next);
     let threads = threads(options.threads);
     let forms = output.as_ref().map_or_else(Default::default, |o| output::forms(&o.state));

@@ -1,10 +1,10 @@
 //! The figures of the report.
 
 use super::tally::{ANGLE, Ends, Impacts, RESTITUTION, SizeBin};
+use carom::study::wilson;
 use carom_report::plot::Legend;
-use carom_report::{Axis, Color, Plot, Series};
+use carom_report::{Axis, Color, HeatMap, Plot, Series};
 use carom_track::Summary;
-use carom_track::deposition::wilson;
 
 /// Size of a figure of which there are several, CSS pixels.
 const SIZE: (u32, u32) = (900, 380);
@@ -90,16 +90,61 @@ pub fn deposit(ends: &Ends, wall: usize) -> Option<(Plot, &'static str)> {
     let total: f64 = bars.amounts[0].iter().sum();
     let shares: Vec<f64> = bars.amounts[0].iter().map(|a| 100.0 * a / total).collect();
     let label = ["x", "y", "z"][main];
-    let reach = bars.edges.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
-    let (unit, factor) = match reach {
-        r if r < 1e-3 => ("µm", 1e6),
-        r if r < 1.0 => ("mm", 1e3),
-        _ => ("m", 1.0),
-    };
+    let (unit, factor) = unit_of(bars.edges.iter().copied());
     let y = Axis::new("share of the mass it kept", "%").range(0.0, top(shares.iter()));
     let mut plot = Plot::new("", Axis::scaled(label, unit, factor), y).with(Series::bars("", bars.edges, shares));
     plot.size = SIZE;
     Some((plot.legend(Legend::Hidden), label))
+}
+
+/// The unit in which lengths up to the longest are short to write, and what a metre is in it.
+fn unit_of(lengths: impl Iterator<Item = f64>) -> (&'static str, f64) {
+    match lengths.fold(0.0, |a: f64, b| a.max(b.abs())) {
+        r if r < 1e-3 => ("µm", 1e6),
+        r if r < 1.0 => ("mm", 1e3),
+        _ => ("m", 1.0),
+    }
+}
+
+/// Cells of a map along its longer side.
+const CELLS: f64 = 48.0;
+
+/// Where a wall made of triangles kept mass, seen along the axis in which it is thinnest; `None` where it kept nothing.
+pub fn map(ends: &Ends, wall: usize) -> Option<(HeatMap, [&'static str; 2])> {
+    let places = ends.places.get(&wall).filter(|places| !places.is_empty())?;
+    let ends_of = |axis: usize| {
+        places.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], (x, _)| [a.min(x[axis]), b.max(x[axis])])
+    };
+    let reach: [[f64; 2]; 3] = [0, 1, 2].map(ends_of);
+    let width = |axis: usize| reach[axis][1] - reach[axis][0];
+    let thin = (0..3).fold(0, |least, axis| if width(axis) <= width(least) { axis } else { least });
+    let axes: Vec<usize> = (0..3).filter(|axis| *axis != thin).collect();
+    let cell = axes.iter().map(|a| width(*a)).fold(0.0, f64::max) / CELLS;
+    if cell.is_nan() || cell <= 0.0 {
+        return None;
+    }
+    let count = |axis: usize| (width(axis) / cell).ceil().max(1.0) as usize;
+    let place = |axis: usize, x: f64| (((x - reach[axis][0]) / cell) as usize).min(count(axis) - 1);
+    let (across, up) = (axes[0], axes[1]);
+    let mut masses = vec![0.0; count(across) * count(up)];
+    let mut total = 0.0;
+    for (x, mass) in places {
+        masses[place(up, x[up]) * count(across) + place(across, x[across])] += mass;
+        total += mass;
+    }
+    let edges = |axis: usize| (0..=count(axis)).map(move |i| reach[axis][0] + i as f64 * cell);
+    let values = masses.into_iter().map(|m| if m > 0.0 { 100.0 * m / total } else { f64::NAN });
+    let labels = [["x", "y", "z"][across], ["x", "y", "z"][up]];
+    let (unit, factor) = unit_of(reach.as_flattened().iter().copied());
+    let mut map = HeatMap::new(
+        "",
+        Axis::scaled(labels[0], unit, factor),
+        Axis::scaled(labels[1], unit, factor),
+        Axis::new("share of the mass it kept", "%"),
+    )
+    .cells(edges(across), edges(up), values.collect::<Vec<_>>());
+    map.size = (SIZE.0, 520);
+    Some((map, labels))
 }
 
 /// The share kept, by size, of each wall that kept any, with 95 % intervals; `None` where there is only one size.

@@ -69,6 +69,8 @@ pub struct Ends {
     pub rows: u64,
     /// Mass kept by each wall along x, y and z.
     pub deposits: Vec<[LinearBins; 3]>,
+    /// Of walls made of triangles: where each deposit lies, m, and its mass, kg.
+    pub places: BTreeMap<usize, Vec<([f64; 3], f64)>>,
     /// By size, rising: the bins of the case, or bins of equal ratio.
     pub sizes: Vec<SizeBin>,
 }
@@ -131,6 +133,7 @@ pub fn ends(folder: &Path, about: &About, summary: &Summary) -> Result<Option<En
     let mut rows = 0;
     let walls = summary.walls.len();
     let mut deposits: Vec<[LinearBins; 3]> = (0..walls).map(|_| Default::default()).collect();
+    let mut places: BTreeMap<usize, Vec<_>> = summary.faces.iter().map(|(wall, ..)| (wall, Vec::new())).collect();
     let mut sizes: BTreeMap<i32, SizeBin> = BTreeMap::new();
     let ratios = LogBins::new(0);
     let mut names = Names::new(summary);
@@ -152,11 +155,14 @@ pub fn ends(folder: &Path, about: &About, summary: &Summary) -> Result<Option<En
             let wall = wall_names[row].as_ref().filter(|_| kept).and_then(|name| names.find(name));
             let Some(wall) = wall else { continue };
             bin.kept[wall] += 1;
+            if let Some(places) = places.get_mut(&wall) {
+                places.push(([0, 1, 2].map(|axis| columns[axis][row]), mass));
+            }
             deposits[wall].iter_mut().zip(&columns).for_each(|(bins, column)| bins.add(column[row], mass));
         }
     }
     let sizes = if about.size_bins.is_empty() { grouped(sizes) } else { sizes.into_values().collect() };
-    Ok(Some(Ends { one_in, rows, deposits, sizes }))
+    Ok(Some(Ends { one_in, rows, deposits, places, sizes }))
 }
 
 /// Sizes shown at most.

@@ -1,7 +1,7 @@
 //! The files a case names, and the number that tells a case from others.
 
+use carom::material::{Material, PropertyKind};
 use std::cell::Cell;
-use std::fmt::{self, Debug, Write};
 use std::path::Path;
 
 /// FNV-1a: enough to tell an edited case from the one that was interrupted.
@@ -17,22 +17,17 @@ impl Fingerprint {
         Self(bytes.iter().fold(self.0, |h, b| (h ^ u64::from(*b)).wrapping_mul(0x0100_0000_01b3)))
     }
 
-    /// With everything that `Debug` shows of a value, each number to its last digit.
-    pub fn with_value(mut self, value: &impl Debug) -> Self {
-        // a fingerprint takes every text
-        let _ = write!(self, "{value:?}");
-        self
+    /// With a material's name and the value of each of its properties, to the last digit.
+    pub fn with_material(self, material: &Material) -> Self {
+        let named = self.with(material.name.as_bytes()).with(&[0]);
+        PropertyKind::ALL
+            .iter()
+            .filter_map(|kind| Some((kind, material.value(*kind)?)))
+            .fold(named, |sum, (kind, value)| sum.with(kind.key().as_bytes()).with(&value.to_bits().to_le_bytes()))
     }
 
     pub fn number(self) -> u64 {
         self.0
-    }
-}
-
-impl Write for Fingerprint {
-    fn write_str(&mut self, text: &str) -> fmt::Result {
-        *self = self.with(text.as_bytes());
-        Ok(())
     }
 }
 

@@ -65,7 +65,7 @@ impl Faces {
         tally.impacts += 1;
         tally.weight.add(weight);
         tally.speed.add(weight * (across * across + along * along).sqrt());
-        tally.angle.add(weight * libm::atan2(across, along));
+        tally.angle.add(weight * carom::math::atan2(across, along));
         if matches!(impact.event, Event::Capture | Event::Settle | Event::Trap) {
             tally.kept.add(mass);
         }

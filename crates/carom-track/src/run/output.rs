@@ -10,7 +10,11 @@ use super::groups::Groups;
 use super::stream::Stream;
 use super::{RunError, vtp};
 use crate::block::{Block, Encoded, Forms, Recording, Rows};
+use crate::domain::Wall;
+use crate::geometry::Shape;
 use crate::tables::{DEPOSIT, LAYOUTS, TRAJECTORIES, TableFormat};
+use std::fs::File;
+use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -245,6 +249,31 @@ impl<'a> Output<'a> {
     /// Appends rows to a table's row groups.
     pub fn put_table(&mut self, t: usize, rows: &carom_table::Table) -> Result<(), RunError> {
         self.tables[t].groups.as_mut().map_or(Ok(()), |groups| groups.put_table(rows, self.disk))
+    }
+
+    /// Writes down the triangles of walls that are made of them, if `deposit.vtp` is wanted and there are any.
+    pub fn write_triangles(&self, walls: &[Wall]) -> Result<(), RunError> {
+        let meshes = walls.iter().enumerate().filter_map(|(wall, w)| match &w.shape {
+            Shape::Mesh(mesh) if !mesh.is_block() => Some((wall as u64, mesh)),
+            _ => None,
+        });
+        let meshes: Vec<_> = meshes.collect();
+        if meshes.is_empty() || !self.state.vtk || self.state.finished {
+            return Ok(());
+        }
+        let (path, fresh) =
+            (self.folder.join(vtp::TRIANGLES), self.folder.join(format!("{}.{UNFINISHED}", vtp::TRIANGLES)));
+        let error = RunError::io(&fresh);
+        let mut out = BufWriter::new(File::create(&fresh).map_err(&error)?);
+        for (wall, mesh) in meshes {
+            for (face, corners) in mesh.triangles() {
+                let whole = [wall, u64::from(face)];
+                let cells = whole.into_iter().chain(corners.as_flattened().iter().map(|x| x.to_bits()));
+                cells.into_iter().try_for_each(|cell| out.write_all(&cell.to_le_bytes())).map_err(&error)?;
+            }
+        }
+        let file = out.into_inner().map_err(|e| error(e.into_error()))?;
+        self.disk.sync(&file, &fresh).and_then(|()| self.disk.rename(&fresh, &path)).map_err(&error)
     }
 
     /// Takes over the triangles of walls from another folder.

@@ -133,3 +133,71 @@ fn vtk_files_hold_the_tables_bit_for_bit() {
     let particles = &trajectories.iter().find(|a| a.0 == "particle").unwrap().1;
     assert_eq!(*particles, (0..20u64).map(u64::to_le_bytes).collect::<Vec<_>>());
 }
+
+#[test]
+fn the_faces_of_a_wall_of_triangles_hold_what_it_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    fs::write(at("box.stl"), stl_box([50.0, 20.0, 30.0])).unwrap();
+    let text = r#"
+        [flow]
+        kind = "still"
+        [forces]
+        drag = "none"
+        [[wall]]
+        name = "floor"
+        plane = { point = [0, "1 mm", 0], normal = [0, 1, 0] }
+        law = "trap"
+        [[wall]]
+        name = "box"
+        stl = { file = "box.stl", unit = "1 mm" }
+        law = "trap"
+        [[injection]]
+        density = 2500
+        diameter = "200 um"
+        count = 3000
+        position = { box = [["10 mm", "5 mm", "5 mm"], ["40 mm", "15 mm", "25 mm"]] }
+        velocity = [0, 3, 4]
+        [run]
+        until = "1 s"
+        "#;
+    let case = Case::from_toml(text, &at("case.toml"), Library::builtin()).unwrap();
+    let summary = run(&case, &options(&at("whole"), 2), &Silent).unwrap();
+    let path = at("whole").join("deposit.vtp");
+    let (arrays, points) = arrays(&path);
+    assert!(String::from_utf8_lossy(&fs::read(&path).unwrap()).contains("NumberOfPolys=\"12\""));
+    assert_eq!(points, 3000 + 3 * 12);
+    let find = |name: &str| &arrays.iter().find(|a| a.0 == name).unwrap().1;
+    let integers = |name: &str| find(name).iter().map(|b| i64::from_le_bytes(*b)).collect::<Vec<_>>();
+    let floats = |name: &str| find(name).iter().map(|b| f64::from_le_bytes(*b)).collect::<Vec<_>>();
+    // first the points of what was kept, then the faces
+    assert_eq!(integers("face")[2999..], [-1, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11]);
+    assert_eq!(integers("wall")[3000..], [1; 12]);
+    let (numbers, masses) = (integers("number"), floats("mass"));
+    assert_eq!(numbers.iter().sum::<i64>(), 3000);
+    assert_eq!(integers("impacts"), numbers);
+    let kept = summary.fates[crate::record::Fate::Trapped as usize].mass.value();
+    assert!((masses.iter().sum::<f64>() - kept).abs() < 1e-14 * kept);
+    let (speeds, angles) = (floats("mean_impact_speed"), floats("mean_impact_angle"));
+    for cell in 3000..3012 {
+        let face = cell - 3000;
+        if numbers[cell] == 0 {
+            assert!(speeds[cell].is_nan());
+            continue;
+        }
+        // the two of z = 30 mm and the two of y = 20 mm
+        assert!([2, 3, 6, 7].contains(&face), "{face}");
+        assert!((speeds[cell] - 5.0).abs() < 1e-9, "{}", speeds[cell]);
+        let wanted = if face > 3 { f64::atan2(3.0, 4.0) } else { f64::atan2(4.0, 3.0) };
+        assert!((angles[cell] - wanted.to_degrees()).abs() < 1e-6, "{} {wanted}", angles[cell]);
+    }
+    // the corners are those of the file
+    let corners = &floats("points")[3 * 3000..];
+    assert!(corners.iter().all(|c| [0.0, 0.02, 0.03, 0.05].iter().any(|e| (c - e).abs() < 1e-8)));
+    let parts: Vec<PathBuf> = (1..=3).map(|index| at(&format!("part-{index}"))).collect();
+    for (index, out) in (1..).zip(&parts) {
+        run(&case, &RunOptions { shard: Some(Shard { index, of: 3 }), ..options(out, 1) }, &Silent).unwrap();
+    }
+    merge(&parts, &at("merged"), false).unwrap();
+    assert!(files(&at("whole")) == files(&at("merged")));
+}
