@@ -69,7 +69,7 @@ fn help(key: Key) -> String {
         }
         Key::Sphere => help += ": see `carom materials`, or rho=8000,E=190GPa,nu=0.27,gamma=1.62,sigma=310MPa",
         Key::Normal => {
-            let losses: Vec<&str> = carom::normal::Loss::ALL.into_iter().map(|l| l.name()).collect();
+            let losses: Vec<&str> = carom::normal::Loss::ALL.iter().map(|l| l.name()).collect();
             help += &format!(
                 ": {}; or losses, separated by commas: {}",
                 carom::spec::NormalKind::NAMES.join(", "),
