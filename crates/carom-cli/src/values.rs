@@ -1,10 +1,10 @@
 //! Values of flags that need more than a type's own reading.
 
 use crate::law::Words;
-use crate::uncertain::{self, Given};
 use carom::LawError;
 use carom::normal::Loss;
 use carom::spec::NormalSpec;
+use carom::study::{self, Given};
 use carom::units::{Angle, AngularVelocity, Length, Speed};
 use std::path::PathBuf;
 
@@ -44,7 +44,7 @@ pub fn diameter(text: &str) -> Result<f64, String> {
 
 /// A diameter, m, or a distribution of it.
 pub fn diameters(text: &str) -> Result<Given, String> {
-    if text.contains('(') { uncertain::read::<Length>(text, (1e-10, 10.0)) } else { diameter(text).map(Given::One) }
+    if text.contains('(') { study::read::<Length>(text, (1e-10, 10.0)) } else { diameter(text).map(Given::One) }
 }
 
 /// The deviation of a wall's facets: degrees, unless a unit is written. Its range is the core's.

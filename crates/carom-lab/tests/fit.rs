@@ -103,7 +103,7 @@ fn a_parameter_at_its_bound_has_no_error_and_lets_go_again() {
     let free = [Free { parameter: RoughnessFactor, bounds: 0.2..=0.5 }];
     let library = Library::builtin();
     let fit =
-        carom_lab::fit::fit(&law("normal = \"ea\"\n"), &free, &data, &library, &Options::default()).expect("fits");
+        carom_lab::fit::fit(&law("normal = \"ea\"\n"), &free, &data, library, &Options::default()).expect("fits");
     assert!(fit.parameters[0].at_bound && fit.parameters[0].value == 0.2);
 }
 
@@ -223,12 +223,12 @@ fn the_law_file_is_ready_to_use() {
     let data = exact("normal = \"ea\"\nroughness_factor = 0.15\nhertz_damping = 0.007\n", &SPEEDS);
     let library = Library::builtin();
     let mut fit = found("normal = \"ea\"\n", &[RoughnessFactor, HertzDamping], &data, 0);
-    let text = fit.law_file("wall", &library).expect("a law");
+    let text = fit.law_file("wall", library).expect("a law");
     assert!(text.starts_with("# Fitted by carom fit to d.csv, 12 points.\n# roughness_factor = 0.15"), "{text}");
-    let again = parse_named_law(&text, "wall").and_then(|l| l.compile(&library)).expect("it reads");
-    assert_eq!(again.normal(), fit.law.compile(&library).expect("a law").normal());
+    let again = parse_named_law(&text, "wall").and_then(|l| l.compile(library)).expect("it reads");
+    assert_eq!(again.normal(), fit.law.compile(library).expect("a law").normal());
     fit.law.friction = None;
-    assert!(fit.law_file("wall", &library).expect("a law").contains("# Friction was not measured"));
+    assert!(fit.law_file("wall", library).expect("a law").contains("# Friction was not measured"));
     fit.law.friction = Some(Number(0.3).into());
-    assert!(fit.law_file("wall", &library).expect("a law").contains("friction = 0.3"));
+    assert!(fit.law_file("wall", library).expect("a law").contains("friction = 0.3"));
 }

@@ -166,9 +166,9 @@ impl Case {
 /// The materials that a case names, in the order in which it does.
 fn materials(read: &CaseText, laws: &wall::Laws, library: &Library) -> Vec<Material> {
     let injected = read.injection.iter().filter_map(|i| i.value.material.as_ref());
-    let laws = laws.values().flat_map(|law| [law.value.sphere.as_ref(), law.value.surface.as_ref()]).flatten();
+    let named = laws.values().flat_map(|law| [law.value.sphere.as_ref(), law.value.surface.as_ref()]).flatten();
     // one that is not in the library is an error where it is used, and nothing where it is not
-    injected.chain(laws).filter_map(|m| m.value.resolve(library).ok()).collect()
+    injected.chain(named).filter_map(|m| m.value.resolve(library).ok()).collect()
 }
 
 /// Particles are counted one by one, and JSON's readers keep no more digits.

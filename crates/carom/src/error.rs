@@ -11,6 +11,9 @@
 mod problem;
 mod wording;
 
+use alloc::boxed::Box;
+use alloc::string::String;
+use alloc::string::ToString;
 pub(crate) use problem::{Problem, read_with};
 pub use wording::{Keys, Wording};
 

@@ -22,8 +22,12 @@
 //! sources in [`material`]; rough walls that scatter in
 //! [`scatter`]; what removes a captured sphere in [`removal`]; what a result's doubts mean in [`validity`]. SI units throughout; angles from the surface.
 
+#![cfg_attr(not(feature = "std"), no_std)]
 // what depends on the platform is on no way to a result (clippy.toml)
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+
+#[macro_use]
+extern crate alloc;
 
 pub mod batch;
 pub mod error;
@@ -40,6 +44,7 @@ pub mod resolved;
 pub mod roughness;
 pub mod scatter;
 pub mod spec;
+pub mod study;
 pub mod tangential;
 pub mod units;
 pub mod validity;

@@ -22,6 +22,10 @@ mod library;
 mod property;
 mod read;
 
+use alloc::borrow::ToOwned;
+use alloc::boxed::Box;
+use alloc::string::String;
+use alloc::vec::Vec;
 pub use library::Library;
 pub use property::{Alternative, Property, PropertyKind};
 
@@ -123,7 +127,7 @@ impl MaterialRef {
     }
 }
 
-impl std::str::FromStr for MaterialRef {
+impl core::str::FromStr for MaterialRef {
     type Err = LawError;
     fn from_str(text: &str) -> Result<Self, LawError> {
         if text.contains('=') {

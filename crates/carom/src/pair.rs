@@ -12,9 +12,11 @@
 
 use crate::error::{LawError, Problem};
 use crate::material::{Material, PropertyKind};
+#[cfg(not(feature = "std"))]
+use crate::math::Plainly as _;
 use crate::normal::plastic::LAMBDA;
 use crate::spec::Key;
-use std::f64::consts::PI;
+use core::f64::consts::PI;
 
 /// Values that replace what the materials would give.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -41,9 +41,11 @@
 //! ```
 
 use crate::impact::ImpactError;
+#[cfg(not(feature = "std"))]
+use crate::math::Plainly as _;
 use crate::math::cbrt;
 use crate::wall::WallLaw;
-use std::f64::consts::PI;
+use core::f64::consts::PI;
 
 /// Drag near the wall over Stokes' (O'Neill 1968).
 pub const DRAG_AT_WALL: f64 = 1.7009;

@@ -11,6 +11,8 @@ use crate::scatter::Scatter;
 use crate::tangential::Tangential;
 use crate::tangential::micro_slip::Shape;
 use crate::validity::Validity;
+use alloc::boxed::Box;
+use alloc::vec::Vec;
 
 mod above_yield;
 mod figures;

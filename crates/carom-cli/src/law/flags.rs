@@ -1,9 +1,9 @@
 //! The registry's keys as flags: names, help, values.
 
-use crate::uncertain::{self, Distribution};
 use crate::values;
 use carom::error::Wording;
 use carom::spec::{Key, LawSpec};
+use carom::study::{Distribution, read_distribution};
 use clap::{Arg, ArgMatches, Command};
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
@@ -95,7 +95,7 @@ fn read(key: Key, text: &str) -> Result<Given, String> {
                 Err(e) => Err(e.unit_error().map_or((0, e.message_in(&Words)), |u| (u.at, u.message.clone()))),
             }
         };
-        return uncertain::distribution(text, &number, key.ends()).map(Given::Drawn);
+        return read_distribution(text, &number, key.ends()).map(Given::Drawn).map_err(|e| e.to_string());
     }
     let mut law = LawSpec::default();
     match key {

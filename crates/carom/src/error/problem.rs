@@ -6,6 +6,10 @@ use crate::material::PropertyKind;
 use crate::normal::Loss;
 use crate::spec::{Choice, Key, NormalKind, TangentialKind};
 use crate::units::UnitError;
+use alloc::borrow::ToOwned;
+use alloc::string::String;
+use alloc::string::ToString;
+use alloc::vec::Vec;
 
 /// One mistake with its data. What words need beyond kind, key and value stands here too.
 #[derive(Clone, Debug, PartialEq)]

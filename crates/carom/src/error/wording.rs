@@ -1,4 +1,6 @@
 //! How a front names what an error is about.
+use alloc::borrow::ToOwned;
+use alloc::string::String;
 
 /// The words of a front: how its users write keys and settings.
 pub trait Wording {

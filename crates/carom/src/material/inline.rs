@@ -2,6 +2,7 @@
 
 use super::{Material, Property, PropertyKind};
 use crate::error::{LawError, Problem};
+use alloc::borrow::ToOwned;
 
 pub(super) fn parse(text: &str) -> Result<Material, LawError> {
     let mut material = Material { name: "inline".into(), ..Material::default() };

@@ -2,7 +2,9 @@
 
 use super::Material;
 use crate::error::{LawError, Problem, nearest};
-use std::collections::BTreeMap;
+use alloc::borrow::ToOwned;
+use alloc::collections::BTreeMap;
+use alloc::string::String;
 
 /// The embedded files of the crate's `data/materials`; a test keeps this list complete.
 #[cfg(feature = "toml")]

@@ -4,6 +4,8 @@ use super::Material;
 use crate::error::{LawError, Problem};
 use crate::spec::{Range, out_of_range};
 use crate::units::{Density, Number, Pressure, Quantity, SurfaceEnergy, UnitError};
+use alloc::string::String;
+use alloc::vec::Vec;
 
 macro_rules! properties {
     ($($(#[doc = $doc:literal])+ $variant:ident $field:ident $symbol:literal: $quantity:ty { $noun:literal, $range:expr })*) => {

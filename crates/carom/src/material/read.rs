@@ -4,6 +4,9 @@ use super::Material;
 use super::property::{Alternative, Property, PropertyKind};
 use crate::error::{LawError, Problem};
 use crate::spec::{At, Entry, Value};
+use alloc::borrow::ToOwned;
+use alloc::string::String;
+use alloc::vec::Vec;
 
 const ABOUT: [&str; 3] = ["description", "aliases", "note"];
 const PROPERTY: [&str; 7] = ["value", "low", "high", "source", "note", "printed", "alternatives"];

@@ -16,6 +16,8 @@
 
 use crate::error::LawError;
 use crate::math::{self, BEST, Fma};
+use alloc::boxed::Box;
+use alloc::vec::Vec;
 use core::f64::consts::FRAC_PI_2;
 
 /// Most coefficients of one polynomial.

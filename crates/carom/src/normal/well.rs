@@ -42,6 +42,8 @@ use super::mechanism::{Account, Mechanism, Stage};
 use crate::error::{LawError, Problem};
 use crate::math::{self, Fma};
 use crate::spec::{Choice, Key};
+use alloc::borrow::ToOwned;
+use alloc::string::ToString;
 use core::f64::consts::PI;
 
 /// A well: depths over half the mass of a sphere of the law's density, radii in units of 10 µm, m²/s².

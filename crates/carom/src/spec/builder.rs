@@ -11,6 +11,7 @@ use crate::pair::{Overrides, Pair};
 use crate::roughness::RoughnessModel;
 use crate::tangential::Tangential;
 use crate::wall::WallLaw;
+use alloc::vec::Vec;
 
 impl WallLaw {
     /// A law from typed values in SI units; quantities such as [`crate::units::Length`] are taken too.

@@ -14,6 +14,7 @@ use crate::roughness::{self, CALIBRATED_ROUGHNESS, CALIBRATED_SPACING, Roughness
 use crate::scatter::Scatter;
 use crate::validity::Validity;
 use crate::wall::{About, Along, Normal, Parts, WallLaw};
+use alloc::vec::Vec;
 
 /// The law of a builder whose values are within their ranges and whose keys are all read.
 pub(super) fn law(b: &LawBuilder, spec: &NormalSpec, pair: Option<Pair>) -> Result<WallLaw, LawError> {

@@ -6,6 +6,10 @@ use super::values::unknown_name;
 use crate::error::{LawError, Problem};
 use crate::normal::empirical::{AngleTable, Curve};
 use crate::units::Number;
+use alloc::borrow::ToOwned;
+use alloc::string::String;
+use alloc::string::ToString;
+use alloc::vec::Vec;
 
 /// A restitution as written: a number or a curve by angle of incidence, already checked for its form.
 #[derive(Clone, Debug, PartialEq)]

@@ -23,11 +23,15 @@ use super::written::{Built, Written};
 use super::{CurveSpec, NormalSpec, TangentialKind};
 use crate::error::{LawError, Problem};
 use crate::material::{Library, Material, MaterialRef};
+#[cfg(not(feature = "std"))]
+use crate::math::Plainly as _;
 use crate::normal::empirical::Curve;
 use crate::resolved::AdhesionMode;
 use crate::roughness::RoughnessModel;
 use crate::scatter;
 use crate::units::{Angle, Energy, InverseSpeed, Length, Number, Pressure, Speed, SurfaceEnergy};
+use alloc::borrow::ToOwned;
+use alloc::string::ToString;
 
 /// What the registry says of a key.
 #[derive(Clone, Copy, Debug)]

@@ -3,6 +3,7 @@
 use super::values;
 use crate::error::{LawError, Problem};
 use crate::normal::Loss;
+use alloc::vec::Vec;
 
 /// Normal laws by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

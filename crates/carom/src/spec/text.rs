@@ -8,6 +8,7 @@ use super::values::At;
 use crate::error::LawError;
 #[cfg(feature = "serde")]
 use crate::error::Problem;
+use alloc::borrow::ToOwned;
 
 impl LawSpec {
     /// From the keys of a table, in any format.

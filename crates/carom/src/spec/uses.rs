@@ -8,6 +8,8 @@ use crate::error::Wording;
 use crate::normal::Loss;
 use crate::resolved::AdhesionMode;
 use crate::roughness::RoughnessModel;
+use alloc::string::String;
+use alloc::vec::Vec;
 
 /// A part of a law that reads keys of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,6 +3,10 @@
 use super::values::At;
 use crate::error::{LawError, Problem};
 use crate::units::Quantity;
+use alloc::borrow::ToOwned;
+use alloc::string::String;
+use alloc::string::ToString;
+use alloc::vec::Vec;
 
 /// A value as some format holds it.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,5 +1,6 @@
 //! Small value types of the text form.
 
+use alloc::borrow::ToOwned;
 use core::ops::{Deref, Range};
 
 /// A value and where it was written (bytes of the text), if it came from one.
@@ -83,7 +84,7 @@ macro_rules! names {
         #[cfg(feature = "serde")]
         impl<'de> serde::Deserialize<'de> for $type {
             fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-                let text = <std::borrow::Cow<'de, str>>::deserialize(deserializer)?;
+                let text = <alloc::borrow::Cow<'de, str>>::deserialize(deserializer)?;
                 text.parse().map_err(serde::de::Error::custom)
             }
         }

@@ -12,6 +12,9 @@ use crate::normal::empirical::Curve;
 use crate::resolved::AdhesionMode;
 use crate::roughness::RoughnessModel;
 use crate::units::Quantity;
+use alloc::borrow::ToOwned;
+use alloc::boxed::Box;
+use alloc::vec::Vec;
 
 /// A value of a law's text.
 pub(crate) trait Written: Sized {

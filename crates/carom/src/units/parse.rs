@@ -2,6 +2,9 @@
 
 use super::Dimension;
 use crate::math;
+use alloc::borrow::ToOwned;
+use alloc::string::String;
+use alloc::vec::Vec;
 use core::fmt;
 
 /// A text that is not the wanted quantity. `at` is the character (0-based) where reading stopped.
@@ -59,9 +62,9 @@ const UNITS: &[(&str, f64, i32, Dimension, bool)] = &[
     ("eV", 1.602_176_634, -19, [2, 1, -2, 0], true),
     ("L", 1.0, -3, [3, 0, 0, 0], true),
     ("rad", 1.0, 0, NUMBER, true),
-    ("deg", std::f64::consts::PI / 180.0, 0, NUMBER, false),
-    ("°", std::f64::consts::PI / 180.0, 0, NUMBER, false),
-    ("rpm", std::f64::consts::TAU / 60.0, 0, [0, 0, -1, 0], false),
+    ("deg", core::f64::consts::PI / 180.0, 0, NUMBER, false),
+    ("°", core::f64::consts::PI / 180.0, 0, NUMBER, false),
+    ("rpm", core::f64::consts::TAU / 60.0, 0, [0, 0, -1, 0], false),
     ("%", 1.0, -2, NUMBER, false),
     ("min", 60.0, 0, [0, 0, 1, 0], false),
     ("h", 3600.0, 0, [0, 0, 1, 0], false),
