@@ -21,6 +21,22 @@
 //! Where to look: one file per mechanism in [`normal`] and [`tangential`]; the equation of motion in [`resolved`]; materials and their
 //! sources in [`material`]; rough walls that scatter in
 //! [`scatter`]; what removes a captured sphere in [`removal`]; what a result's doubts mean in [`validity`]. SI units throughout; angles from the surface.
+//!
+//! # How do I ...
+//!
+//! | ... | look at |
+//! |---|---|
+//! | ask about one impact | [`WallLaw::impact`], [`Impact`], [`Outcome`] |
+//! | ask about many | [`batch`] |
+//! | read a law from text | [`spec`] |
+//! | add a material, or see where a value comes from | [`material`] |
+//! | find the capture velocity, the critical angle, the yield velocity | [`WallLaw::window`], [`WallLaw::critical_angle`], [`WallLaw::yield_velocity`] |
+//! | know what a result's warnings mean | [`validity`] |
+//! | add adhesion's roughness factor from measured roughness | [`roughness`] |
+//! | treat a rough wall that scatters | [`scatter`] |
+//! | know what takes a captured sphere off again | [`removal`] |
+//! | see force and overlap during the contact | [`resolved`] |
+//! | add a loss | [`normal`], and the recipe in the repository's guide for contributors |
 
 // what depends on the platform is on no way to a result (clippy.toml)
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
