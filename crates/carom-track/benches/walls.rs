@@ -1,7 +1,8 @@
 //! The closed box of `closed_box` between walls of other shapes: what each costs over six planes.
 //!
-//! All shapes in turn, several rounds; the least processor time of each and its ratio to the planes' are printed. `walls build` times
-//! building a mesh of a million triangles.
+//! All shapes in turn, several rounds; the least processor time of each and its ratio to the planes' are printed. `-- build` times
+//! building a mesh of a million triangles; `-- vessel N` flies spheres for N steps in closed vessels of triangles, and none may be
+//! outside at any impact or end.
 
 use carom_track::domain::{AnyDomain, ContactAt, Wall};
 use carom_track::dynamics::Dynamics;
@@ -111,9 +112,103 @@ fn build() {
     }
 }
 
+/// A sphere of radius `SIDE` as triangles: an octahedron's, each divided into four `times` times.
+fn vessel(times: u32) -> Vec<Triangle> {
+    let put = |x: [f64; 3]| {
+        let r = (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]).sqrt();
+        x.map(|c| SIDE * c / r)
+    };
+    let mut all: Vec<Triangle> = Vec::new();
+    for signs in 0..8 {
+        let sign = |c: usize| if signs >> c & 1 == 0 { 1.0 } else { -1.0 };
+        all.push([[sign(0), 0.0, 0.0], [0.0, sign(1), 0.0], [0.0, 0.0, sign(2)]].map(put));
+    }
+    for _ in 0..times {
+        let middle = |a: [f64; 3], b: [f64; 3]| put([0, 1, 2].map(|c| a[c] + b[c]));
+        let four = |[a, b, c]: &Triangle| {
+            let [d, e, f] = [middle(*a, *b), middle(*b, *c), middle(*c, *a)];
+            [[*a, d, f], [d, *b, e], [f, e, *c], [d, e, f]]
+        };
+        all = all.iter().flat_map(four).collect();
+    }
+    all
+}
+
+/// Counts what leaves a vessel.
+#[derive(Default)]
+struct Watch {
+    steps: u64,
+    impacts: u64,
+    ends: u64,
+    outside: u64,
+}
+
+impl Watch {
+    fn look(&mut self, x: [f64; 3]) {
+        self.outside += u64::from(x[0] * x[0] + x[1] * x[1] + x[2] * x[2] > SIDE * SIDE * (1.0 + 1e-12));
+    }
+}
+
+impl Sink for Watch {
+    fn start(&mut self, _: &Particle) -> bool {
+        false
+    }
+    fn impact(&mut self, impact: &ImpactRecord) {
+        self.impacts += 1;
+        self.look(impact.position);
+    }
+    fn point(&mut self, _: u64, _: f64, _: [f64; 3], _: [f64; 3], _: [f64; 3]) {}
+    fn end(&mut self, end: &End) {
+        self.ends += 1;
+        self.steps += end.steps;
+        self.look(end.position);
+    }
+}
+
+/// Flies spheres, in turn by their surfaces and by their centres, until so many steps are done.
+fn fly(wanted: f64) {
+    let law = "normal = \"constant\"\nrestitution = 1\ntangential = \"constant\"\ntangential_restitution = 1\n";
+    let law = carom::spec::parse_law(law).expect("a law").compile(carom::material::Library::builtin()).expect("a law");
+    let behaviors = [Behavior::Law(vec![law])];
+    let forces = Forces { drag: Drag::None, ..Forces::default() };
+    let dynamics = Dynamics { fluid: Fluid::default(), forces, random_walk: None, brownian: false };
+    let settings =
+        Settings { tolerance: 1e-5, until: 5.0, settle_height: SettleHeight::DEFAULT, max_steps: 1_000_000, seed: 1 };
+    let (mut all, mut number) = (Watch::default(), 0);
+    for round in 0.. {
+        let contact_at = if round % 2 == 0 { ContactAt::Center } else { ContactAt::Surface };
+        let shape = Shape::Mesh(Mesh::new(&vessel(2 + round % 4)).expect("triangles"));
+        let domain = AnyDomain::new(Flow::Still, vec![Wall { contact_at, ..wall(shape) }]);
+        let tracker = Tracker { domain: &domain, dynamics: &dynamics, behaviors: &behaviors, settings };
+        let mut watch = Watch::default();
+        // from within half the radius, at some metres a second
+        let spheres = (number..number + 1000).map(|n| {
+            let p = particle(n);
+            Particle { position: p.position.map(|c| 0.5 * (c - 0.5 * SIDE)), ..p }
+        });
+        tracker.run(&mut { spheres }, &mut watch);
+        number += 1000;
+        all.steps += watch.steps;
+        all.impacts += watch.impacts;
+        all.ends += watch.ends;
+        all.outside += watch.outside;
+        if all.steps as f64 >= wanted {
+            break;
+        }
+    }
+    let Watch { steps, impacts, ends, outside } = all;
+    println!("{steps:e} steps, {impacts:e} impacts, {ends} of {number} spheres ended, {outside} times outside");
+    assert!(outside == 0 && ends == number, "spheres left a closed vessel");
+}
+
 fn main() {
-    if std::env::args().any(|a| a == "build") {
+    let arguments: Vec<String> = std::env::args().collect();
+    if arguments.iter().any(|a| a == "build") {
         return build();
+    }
+    if let Some(place) = arguments.iter().position(|a| a == "vessel") {
+        let wanted = arguments.get(place + 1).and_then(|n| n.parse().ok());
+        return fly(wanted.unwrap_or(1e7));
     }
     let room = || wall(Shape::Room(Room { min: [0.0; 3], max: [SIDE; 3] }));
     let rod = Cylinder { point: [0.5; 3], axis: [0.0, 0.0, 1.0], radius: 0.01, inside: false };

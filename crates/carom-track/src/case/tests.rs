@@ -1,5 +1,7 @@
 use super::*;
 
+mod stl;
+
 const GOOD: &str = r#"
 title = "Copper in a channel"
 seed = 7

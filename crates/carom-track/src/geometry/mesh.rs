@@ -7,6 +7,8 @@
 
 #![allow(clippy::needless_range_loop, reason = "one index runs through several arrays of lanes or components")]
 
+mod falls;
+mod flats;
 mod nearest;
 mod piece;
 mod rim;
@@ -19,6 +21,8 @@ use super::{Bounds, Meeting, Path};
 use crate::integrate::{Lanes, Lanes3};
 use crate::lanes::{Mask, bits, mask};
 use crate::vector::{Vec3, norm, sub};
+use carom::instructions::{InstructionSet, Work};
+use carom::math::Fma;
 use rayon::prelude::*;
 use rim::Reach;
 use surface::Surface;
@@ -49,6 +53,26 @@ const SKIN: f64 = 1e-12;
 const DOUBLE: f64 = 8e-15;
 /// Up to so many planes are looked at side by side before triangles are.
 const FEW: usize = 12;
+
+/// The instructions for a search: four boxes side by side.
+const SET: InstructionSet = if cfg!(target_arch = "aarch64") { InstructionSet::Neon } else { InstructionSet::Avx2 };
+
+/// A search for the first contact.
+struct Meet<'a> {
+    mesh: &'a Mesh,
+    path: &'a Path,
+    reach: Reach,
+}
+
+impl Work for Meet<'_> {
+    type Output = Option<(Meeting, u32)>;
+
+    #[inline(always)]
+    fn run<F: Fma, const LANES: usize>(self, _: F) -> Option<(Meeting, u32)> {
+        let (meeting, face) = Sweep::new(self.mesh, self.path, self.reach).first()?;
+        Some((meeting, self.mesh.surface.faces[face as usize].number))
+    }
+}
 
 impl Mesh {
     /// A wall of triangles; those without area or with a corner that is not finite are left out. `None` if none is left.
@@ -130,25 +154,7 @@ impl Mesh {
 
     /// Where a path first comes within `clearance` of a triangle, and the triangle's place in the list given.
     pub fn meet(&self, path: &Path, clearance: f64, slack: f64) -> Option<(Meeting, u32)> {
-        let reach = self.reach(clearance, slack);
-        #[cfg(target_arch = "x86_64")]
-        if std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma") {
-            // SAFETY: the instructions were just found to be there.
-            return unsafe { self.meet_avx2(path, reach) };
-        }
-        self.meet_plain(path, reach)
-    }
-
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx2,fma")]
-    fn meet_avx2(&self, path: &Path, reach: Reach) -> Option<(Meeting, u32)> {
-        self.meet_plain(path, reach)
-    }
-
-    #[inline(always)]
-    fn meet_plain(&self, path: &Path, reach: Reach) -> Option<(Meeting, u32)> {
-        let (meeting, face) = Sweep::new(self, path, reach).first()?;
-        Some((meeting, self.surface.faces[face as usize].number))
+        SET.run(Meet { mesh: self, path, reach: self.reach(clearance, slack) })
     }
 
     /// Which of `W` paths may come within their clearances: all that are not surely clear of the box around it, nor, where it

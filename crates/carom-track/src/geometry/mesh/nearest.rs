@@ -5,7 +5,9 @@ use super::Mesh;
 use super::Triangle;
 use super::rim::{self, Reach};
 use super::surface::Face;
+use super::tree::STACK;
 use crate::vector::{Vec3, add, dot, norm, scale, sub, unit};
+use arrayvec::ArrayVec;
 
 /// The part of a triangle that a point is nearest to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,7 +22,8 @@ impl Mesh {
     /// The nearest point of all, and its face.
     pub(super) fn nearest(&self, x: Vec3) -> Option<(u32, Vec3)> {
         let (mut best, mut found) = (f64::INFINITY, None);
-        let mut stack = vec![(0.0, 0u32)];
+        let mut stack = ArrayVec::<(f64, u32), STACK>::new();
+        stack.push((0.0, 0));
         while let Some((distance, node)) = stack.pop() {
             if distance >= best {
                 continue;
@@ -46,7 +49,8 @@ impl Mesh {
     /// Calls `visit` with all triangles whose boxes are within a distance of a point, until it says stop.
     fn around(&self, x: Vec3, far: f64, visit: &mut impl FnMut(u32, &Face) -> bool) {
         let region = Bounds::around([x]).wider(far);
-        let mut stack = vec![0u32];
+        let mut stack = ArrayVec::<u32, STACK>::new();
+        stack.push(0);
         while let Some(node) = stack.pop() {
             for (_, child) in self.tree.nodes[node as usize].children().filter(|(b, _)| b.meets(&region)) {
                 for i in child.first..child.first + child.count {

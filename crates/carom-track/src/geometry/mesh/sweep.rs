@@ -4,11 +4,12 @@
 //! boxes that a band around its chord crosses are visited, nearest first, until the best contact lies before all that wait.
 
 use super::super::bernstein::Descents;
-use super::super::{Bernstein, Meeting, Path};
+use super::super::{Meeting, Path};
 use super::Mesh;
+use super::falls::Falls;
 use super::piece::Piece;
 use super::rim::{self, Reach};
-use super::surface::{Face, Flat, Surface};
+use super::surface::{Face, Surface};
 use super::tree::{Child, MIXED, Node, STACK};
 use crate::vector::{Vec3, cross, dot, norm, scale, sub, unit};
 use arrayvec::ArrayVec;
@@ -37,113 +38,6 @@ struct Found {
     foot: Option<Vec3>,
 }
 
-/// When a path comes down to a plane from one side.
-#[derive(Clone, Copy)]
-struct Fall {
-    /// The gap along the path, or what is left of it without a root at the start.
-    gap: Bernstein<6>,
-    /// Whether it touches and approaches at once.
-    now: bool,
-    descents: Descents,
-    /// Where the only descent is.
-    at: Vec3,
-}
-
-/// From the side that it starts on, and from the other.
-#[derive(Clone, Copy)]
-struct Falls {
-    near: Fall,
-    far: Option<Fall>,
-    /// Out of the plane towards the start.
-    normal: Vec3,
-    /// Nothing in the plane is within reach.
-    is_clear: bool,
-    /// It starts on the side that the plane's own normal points to; within the clearance of the plane.
-    is_up: bool,
-    is_deep: bool,
-}
-
-impl Fall {
-    const NONE: Self = Self { gap: Bernstein([0.0; 6]), now: false, descents: Descents::None, at: [0.0; 3] };
-
-    #[inline(always)]
-    fn new(gap: Bernstein<6>, now: bool, path: &Path) -> Self {
-        let descents = gap.descents();
-        let at = if let Descents::One(theta) = descents { path.at(theta) } else { path.start };
-        Self { gap, now, descents, at }
-    }
-
-    /// The first contact before `best` at a place that counts.
-    #[inline(always)]
-    fn first(&self, best: f64, path: &Path, accept: impl Fn(Vec3) -> bool) -> Option<f64> {
-        if self.now && accept(path.start) {
-            return Some(0.0);
-        }
-        match self.descents {
-            Descents::None => None,
-            Descents::One(theta) => (theta < best && accept(self.at)).then_some(theta),
-            Descents::Many => self.gap.first_descent(|theta| accept(path.at(theta))),
-        }
-    }
-}
-
-impl Falls {
-    #[inline(always)]
-    fn new(flat: &Flat, path: &Path, reach: Reach) -> Self {
-        let Reach { clearance, slack } = reach;
-        let height = flat.height(path.start);
-        let along = path.along(flat.normal);
-        // a point that touches is on the side it moves to
-        let side = if height.abs() > slack { height } else { dot(flat.normal, path.points[0]) };
-        let sign = if side < 0.0 { -1.0 } else { 1.0 };
-        let normal = scale(flat.normal, sign);
-        let gap = sign * height - clearance;
-        let change = along.scaled(sign, 0.0);
-        let lowest = change.range_ahead().0;
-        let is_clear = gap > slack && gap + lowest > slack;
-        let mut falls = Self {
-            near: Fall { gap: change, ..Fall::NONE },
-            far: None,
-            normal,
-            is_clear,
-            is_up: sign > 0.0,
-            is_deep: gap < -slack,
-        };
-        if is_clear {
-            return falls;
-        }
-        falls.near = if gap < -slack {
-            Fall::new(change.scaled(1.0, gap), change.leads_down(), path)
-        } else if gap <= slack {
-            Fall::new(change.deflated(), change.leads_down(), path)
-        } else {
-            Fall::new(change.scaled(1.0, gap), false, path)
-        };
-        if sign * height + lowest < -clearance {
-            let start = (-sign * height - clearance).min(-f64::MIN_POSITIVE);
-            falls.far = Some(Fall::new(change.scaled(-1.0, start), false, path));
-        }
-        falls
-    }
-}
-
-impl Falls {
-    /// Whether edges and corners that stick out to some sides of the plane may be touched before `best`: on the other side of
-    /// the plane the path comes only through it.
-    #[inline(always)]
-    fn may_reach(&self, rim: u32, best: f64) -> bool {
-        let starts_on = if self.is_up { 1 << 6 } else { 2 << 6 };
-        if rim & starts_on != 0 || self.near.now || self.is_deep {
-            return true;
-        }
-        match self.near.descents {
-            Descents::None => false,
-            Descents::One(theta) => theta < best,
-            Descents::Many => true,
-        }
-    }
-}
-
 impl Surface {
     /// Whether a point lies over a triangle, its edges included by `beside` (m). The sign beside an edge is computed from its
     /// ends in one order: neighbours in one plane share every point.
@@ -168,9 +62,7 @@ impl Surface {
 
 impl<'a> Sweep<'a> {
     pub fn new(mesh: &'a Mesh, path: &'a Path, reach: Reach) -> Self {
-        let falls =
-            Falls { near: Fall::NONE, far: None, normal: [0.0; 3], is_clear: true, is_up: true, is_deep: false };
-        Self { mesh, path, reach, best: f64::INFINITY, found: None, flat: u32::MAX, falls }
+        Self { mesh, path, reach, best: f64::INFINITY, found: None, flat: MIXED, falls: Falls::NONE }
     }
 
     /// The first contact and its triangle's place in the list of faces.
