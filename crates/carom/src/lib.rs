@@ -15,15 +15,19 @@
 //! let wall = law.compile(Library::builtin())?;
 //! let out = wall.impact(&Impact::new(90e-6, [2.0, -0.5, 0.0], [0.0, 1.0, 0.0])).expect("it approaches the wall");
 //! println!("{}: e = {:.3}, leaves at {:?} m/s", out.fate.name(), out.restitution, out.velocity);
-//! # Ok::<(), carom::SpecError>(())
+//! # Ok::<(), carom::LawError>(())
 //! ```
 //!
 //! Where to look: one file per mechanism in [`normal`] and [`tangential`]; the equation of motion in [`resolved`]; materials and their
 //! sources in [`material`]; rough walls that scatter in
 //! [`scatter`]; what removes a captured sphere in [`removal`]; what a result's doubts mean in [`validity`]. SI units throughout; angles from the surface.
 
+#![cfg_attr(not(feature = "std"), no_std)]
 // what depends on the platform is on no way to a result (clippy.toml)
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+
+#[macro_use]
+extern crate alloc;
 
 pub mod batch;
 pub mod error;
@@ -40,13 +44,16 @@ pub mod resolved;
 pub mod roughness;
 pub mod scatter;
 pub mod spec;
+pub mod study;
 pub mod tangential;
 pub mod units;
 pub mod validity;
 mod vector;
 pub mod wall;
 
-pub use error::SpecError;
+pub use error::LawError;
+#[doc(hidden)]
+pub use error::LawError as SpecError;
 pub use impact::{Energy, Fate, Impact, ImpactError, Outcome, Vec3};
 pub use normal::Window;
 pub use tangential::Contact;

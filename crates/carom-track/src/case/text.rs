@@ -3,12 +3,11 @@
 use super::removal::RemovalText;
 use crate::tables::TableFormat;
 use carom::material::MaterialRef;
-use carom::spec::{At, CurveSpec, LawSpec};
+use carom::spec::{At, CurveSpec};
 use carom::units::{
     Acceleration, AngularVelocity, Density, Frequency, Length, Mass, MassFlow, Number, Speed, Temperature, Time,
     Viscosity,
 };
-use std::collections::BTreeMap;
 
 /// A case file.
 #[derive(Debug, serde::Deserialize)]
@@ -22,8 +21,9 @@ pub(super) struct CaseText {
     pub forces: ForcesText,
     #[serde(default)]
     pub wall: Vec<At<WallText>>,
-    #[serde(default)]
-    pub law: BTreeMap<String, At<LawSpec>>,
+    /// Read apart, by [`carom::spec::parse_laws`], which says more of its mistakes.
+    #[serde(default, rename = "law")]
+    _law: serde::de::IgnoredAny,
     #[serde(default)]
     pub injection: Vec<At<InjectionText>>,
     #[serde(default)]
