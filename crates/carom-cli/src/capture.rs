@@ -12,8 +12,8 @@ use crate::removal::{self, RemovalArgs};
 use crate::samples::SampleArgs;
 use crate::study::is_drawn;
 use crate::text::Lines;
-use crate::uncertain::Given;
 use crate::warnings::{Warnings, Yielding};
+use carom::study::Given;
 use carom_report::{Axis, Column, Plot, Table};
 
 const EXAMPLE: &str = "\

@@ -1,6 +1,8 @@
 //! What can go wrong, how it is shown, and the exit code: 2 for the user's input, 1 for anything else.
 
-use carom::SpecError;
+use crate::law::Words;
+use carom::LawError;
+use carom::error::{Keys, Wording};
 use carom_lab::LabError;
 use carom_report::{ReportError, TableError};
 use clap::error::ErrorKind;
@@ -28,11 +30,11 @@ impl Failure {
     }
 
     /// A mistake in the text of a file; without a place it is shown in a line.
-    pub fn in_file(error: SpecError, name: &str, text: &str) -> Self {
+    pub fn in_file(error: LawError, name: &str, text: &str) -> Self {
         let Some(span) = error.span.clone() else { return Self::Input(format!("{name}: {error}")) };
         let mut diagnostic =
-            MietteDiagnostic::new(error.message).with_label(LabeledSpan::underline(first_line(span, text)));
-        if let Some(help) = error.help {
+            MietteDiagnostic::new(error.message()).with_label(LabeledSpan::underline(first_line(span, text)));
+        if let Some(help) = error.help_in(&InFile) {
             diagnostic = diagnostic.with_help(help);
         }
         let source = NamedSource::new(name, text.to_owned());
@@ -56,6 +58,27 @@ impl Failure {
             }
             Self::BrokenPipe => ExitCode::SUCCESS,
         }
+    }
+}
+
+/// The words of a file's keys, on a command line that can list materials.
+struct InFile;
+
+impl Wording for InFile {
+    fn key(&self, key: &str) -> String {
+        Keys.key(key)
+    }
+    fn value(&self, value: &str) -> String {
+        Keys.value(value)
+    }
+    fn setting(&self, key: &str, value: &str) -> String {
+        Keys.setting(key, value)
+    }
+    fn loss(&self, name: &str) -> String {
+        Keys.loss(name)
+    }
+    fn materials(&self) -> Option<String> {
+        Words.materials()
     }
 }
 

@@ -8,7 +8,7 @@ use crate::law::LawArgs;
 use crate::output::{self, check_folder};
 use crate::values;
 use carom_lab::LabError;
-use carom_lab::fit::{BootstrapOptions, Data, Fit, Free, Options, Parameter, Resampling, fit};
+use carom_lab::fit::{BootstrapOptions, Data, Fit, Free, Key, Options, Parameter as _, Resampling, fit, parameter};
 use carom_report::plot::ImageFormat;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
@@ -32,11 +32,11 @@ pub struct Args {
     #[arg(value_name = "DATA", required_unless_present = "survey")]
     data: Option<PathBuf>,
     /// What to find: adhesion_damping, hertz_damping, roughness_factor, work_of_adhesion, plastic_constant, friction
-    #[arg(long, value_name = "NAMES", help_heading = "Fit", value_delimiter = ',', required_unless_present = "survey")]
-    free: Vec<Parameter>,
+    #[arg(long, value_name = "NAMES", help_heading = "Fit", value_delimiter = ',', value_parser = key, required_unless_present = "survey")]
+    free: Vec<Key>,
     /// Where one may lie, NAME=LOW..HIGH (repeatable) [default: 0 and more, C_R 0..1]
     #[arg(long, value_name = "RANGE", help_heading = "Fit", value_parser = bounds)]
-    bounds: Vec<(Parameter, RangeInclusive<f64>)>,
+    bounds: Vec<(Key, RangeInclusive<f64>)>,
     /// Diameter of the spheres, where the points have no column for it
     #[arg(long, value_name = "LENGTH", help_heading = "Fit", value_parser = values::diameter)]
     diameter: Option<f64>,
@@ -69,10 +69,10 @@ pub struct Args {
 }
 
 /// `friction=0.1..0.6`; an end may be left out.
-fn bounds(text: &str) -> Result<(Parameter, RangeInclusive<f64>), String> {
+fn bounds(text: &str) -> Result<(Key, RangeInclusive<f64>), String> {
     let right = "a parameter and its range are wanted, such as friction=0.1..0.6";
     let (name, range) = text.split_once('=').ok_or(right)?;
-    let parameter: Parameter = name.parse().map_err(|e: carom::SpecError| e.to_string())?;
+    let parameter = key(name)?;
     let (low, high) = range.split_once("..").ok_or(right)?;
     let natural = parameter.natural_bounds();
     let end = |text: &str, absent: f64| {
@@ -90,6 +90,10 @@ fn bounds(text: &str) -> Result<(Parameter, RangeInclusive<f64>), String> {
     Ok((parameter, low..=high))
 }
 
+fn key(text: &str) -> Result<Key, String> {
+    parameter(text).map_err(|e| e.to_string())
+}
+
 fn resampling(text: &str) -> Result<Resampling, String> {
     match text {
         "residuals" => Ok(Resampling::Residuals),
@@ -100,7 +104,7 @@ fn resampling(text: &str) -> Result<Resampling, String> {
 
 impl Args {
     /// The free parameters, `default` where none is named.
-    fn free(&self, default: &[Parameter]) -> Result<Vec<Free>, Failure> {
+    fn free(&self, default: &[Key]) -> Result<Vec<Free>, Failure> {
         let named = if self.free.is_empty() { default } else { &self.free };
         let mut free: Vec<Free> = named.iter().copied().map(Free::new).collect();
         for (parameter, range) in &self.bounds {

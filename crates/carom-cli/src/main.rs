@@ -22,7 +22,6 @@ mod study;
 mod sweep;
 mod text;
 mod trajectories;
-mod uncertain;
 mod validate;
 mod values;
 mod warnings;

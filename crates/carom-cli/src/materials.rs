@@ -2,6 +2,7 @@
 
 use crate::failure::Failure;
 use crate::law::MaterialsArgs;
+use crate::law::Words;
 use crate::output;
 use crate::text::{number, wrapped};
 use carom::material::{Material, Property, PropertyKind};
@@ -41,7 +42,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let library = args.materials.library()?;
     match &args.name {
         Some(name) => {
-            let material = library.get(name).map_err(|e| Failure::input(e.to_string()))?;
+            let material = library.get(name).map_err(|e| Failure::input(e.said_in(&Words)))?;
             if args.json { output::print_json(&Entry::from(material)) } else { output::print(&tell(material)) }
         }
         None if args.json => output::print_json(&library.iter().map(Entry::from).collect::<Vec<_>>()),
@@ -204,7 +205,8 @@ fn tell(material: &Material) -> String {
         }
     }
     let missing: Vec<String> = PropertyKind::ALL
-        .into_iter()
+        .iter()
+        .copied()
         .filter(|kind| material.value(*kind).is_none() && asked_for(*kind, material))
         .map(|kind| kind.key().replace('_', " "))
         .collect();

@@ -3,8 +3,8 @@
 use crate::failure::Failure;
 use crate::law::{Law, LawArgs};
 use crate::text::scaled;
-use crate::uncertain::{Distribution, Given};
 use crate::values;
+use carom::study::{Distribution, Given};
 use carom::{Fate, Impact, ImpactError, Outcome, WallLaw};
 
 /// The flags of an impact: a wall law and a motion.

@@ -4,9 +4,9 @@ use crate::failure::Failure;
 use crate::grid::{Curve, Grid};
 use crate::law::Law;
 use crate::motion::{ImpactArgs, Met, Motion, refused};
-use crate::samples::{Band, Sampling, Share};
-use crate::uncertain::Distribution;
+use carom::study::{Band, Distribution, Sampling, Share, sampled};
 use carom_report::Column;
+use std::borrow::Cow;
 
 /// What bands are made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -90,26 +90,21 @@ impl Study {
             return Err(Failure::input(NOTHING));
         }
         let motions = motions(grid, curve)?;
-        let n = sampling.samples as usize;
-        let mut hits = vec![0u32; motions.len()];
-        let mut values = Figure::ALL.map(|_| vec![Vec::with_capacity(n); motions.len()]);
-        for sample in 0..sampling.samples {
+        let law = |sample| {
             let drawn = varies.then(|| population.law(|flag| sampling.draw(sample, flag))).transpose()?;
-            let wall = drawn.as_ref().unwrap_or(&middle.wall);
+            Ok::<_, Failure>(drawn.map_or(Cow::Borrowed(&middle.wall), Cow::Owned))
+        };
+        let study = sampled(sampling, motions.len(), law, |wall, sample, point| {
             let draws = if scatters { sampling.impact(sample) } else { [0.5; 4] };
+            let motion = motions[point];
             let diameter = curve.diameter(grid.quantity(), sampling.draw(sample, 0));
-            for (point, motion) in motions.iter().enumerate() {
-                let motion = Motion { diameter: diameter.unwrap_or(motion.diameter), ..*motion };
-                let met = motion.meet_drawn(wall, draws).map_err(|e| refused(e, &motion))?;
-                hits[point] += u32::from(!met.rebounds());
-                for (figure, values) in Figure::ALL.iter().zip(&mut values) {
-                    values[point].push(figure.of(&met));
-                }
-            }
-        }
-        self.sticking.extend(hits.into_iter().map(|h| Share::of(h, sampling.samples)));
-        for (bands, values) in self.bands.iter_mut().zip(&mut values) {
-            bands.extend(values.iter_mut().map(Band::of));
+            let motion = Motion { diameter: diameter.unwrap_or(motion.diameter), ..motion };
+            let met = motion.meet_drawn(wall, draws).map_err(|e| refused(e, &motion))?;
+            Ok((!met.rebounds(), Figure::ALL.map(|figure| figure.of(&met))))
+        })?;
+        self.sticking.extend(study.sticking);
+        for (bands, new) in self.bands.iter_mut().zip(study.bands) {
+            bands.extend(new);
         }
         self.laws.push(middle);
         Ok(())

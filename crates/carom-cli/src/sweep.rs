@@ -5,10 +5,11 @@ use crate::grid::{Grid, GridArgs, Over, Swept};
 use crate::law::Law;
 use crate::motion::{ImpactArgs, Met, refused};
 use crate::output::Files;
-use crate::samples::{SampleArgs, Sampling};
+use crate::samples::{SampleArgs, note};
 use crate::study::{Figure, NOTHING, Study, drawn, is_drawn};
 use crate::text::{number, plotted, quantity};
-use crate::uncertain::Given;
+use carom::study::Given;
+use carom::study::Sampling;
 use carom_report::plot::Reference;
 use carom_report::{Axis, Column, Plot, Series, Table};
 
@@ -185,7 +186,7 @@ fn sampled(args: &Args, grid: &Grid, files: &Files, sampling: &Sampling) -> Resu
     };
     let oblique = grid.curves.iter().any(|c| grid.is_oblique(c));
     let told: &[Figure] = if oblique { &[Figure::Restitution, Figure::AngleOut] } else { &[Figure::Restitution] };
-    say(&sampling.note(grid.curves.iter().map(|c| &c.args)));
+    say(&note(sampling, grid.curves.iter().map(|c| &c.args)));
     grid.show(files, || table(&Figure::ALL), || table(told), || sampled_plot(grid, &study, args.quantity))
 }
 

@@ -316,10 +316,16 @@ impl Experiment {
     /// An unknown or bad law, with its place.
     pub fn law(&self, name: &At<String>, normal_only: bool, library: &Library) -> Result<WallLaw, LabError> {
         let mut law = parse_named_law(&self.text, name).map_err(|e| self.wrong(e.at(name.span.clone())))?;
-        if normal_only && law.friction.is_none() && law.tangential.is_none() && law.tangential_restitution.is_none() {
+        if normal_only && law.friction.is_none() && law.reads(carom::spec::Key::Friction) {
             law.friction = Some(Number(0.0).into());
         }
-        law.compile(library).map_err(|e| self.wrong(e.at(name.span.clone())))
+        let compiled = law.compile(library).and_then(|wall| {
+            if !normal_only {
+                wall.require_friction()?;
+            }
+            Ok(wall)
+        });
+        compiled.map_err(|e| self.wrong(e.at(name.span.clone())))
     }
 
     /// An error in this experiment's text.

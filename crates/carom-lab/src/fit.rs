@@ -2,12 +2,12 @@
 //!
 //! ```
 //! use carom::{material::Library, spec::parse_law};
-//! use carom_lab::fit::{Data, Free, Options, Parameter, fit};
+//! use carom_lab::fit::{Data, Free, Key, Options, fit};
 //! let law = parse_law("sphere = \"stainless-steel\"\nsurface = \"silicon\"\nnormal = \"ea\"\nfriction = 0\n")?;
 //! // made with C_R = 0.15 and C_H = 0.007 s/m, rounded to three digits
 //! let csv = "speed,restitution\n0.1,0.805\n0.3,0.926\n1,0.970\n3,0.978\n10,0.964\n20,0.934\n";
 //! let data = Data::from_csv("steel.csv", csv, Some(70e-6))?;
-//! let free = [Parameter::RoughnessFactor, Parameter::HertzDamping].map(Free::new);
+//! let free = [Key::RoughnessFactor, Key::HertzDamping].map(Free::new);
 //! let found = fit(&law, &free, &data, Library::builtin(), &Options::default())?;
 //! assert!((found.parameters[0].value - 0.15).abs() < 0.01 && (found.parameters[1].value - 0.007).abs() < 0.0003);
 //! assert!(found.law.to_toml("steel")?.contains("roughness_factor = 0.1"));
@@ -26,8 +26,9 @@ pub mod survey;
 mod uncertainty;
 
 pub use bootstrap::{Bootstrap, BootstrapOptions, Resampling};
+pub use carom::spec::Key;
 pub use data::{Data, Measurement};
-pub use parameter::Parameter;
+pub use parameter::{Parameter, parameter, parameters};
 pub use problem::Free;
 pub use uncertainty::Goodness;
 
@@ -49,7 +50,7 @@ pub struct Options {
 #[derive(Clone, Debug, Serialize)]
 pub struct Estimate {
     /// Which.
-    pub parameter: Parameter,
+    pub parameter: Key,
     /// SI unit, empty for a number.
     pub unit: &'static str,
     /// The least-squares value.
@@ -128,7 +129,7 @@ pub fn fit(law: &LawSpec, free: &[Free], data: &Data, library: &Library, options
             let reach = error.map(|e| known.quantile * e).filter(|r| r.is_finite());
             Estimate {
                 parameter: free[n].parameter,
-                unit: free[n].parameter.unit(),
+                unit: free[n].parameter.info().unit,
                 value,
                 standard_error: error,
                 interval: reach.map(|r| (problem.inside(n, value - r), problem.inside(n, value + r))),

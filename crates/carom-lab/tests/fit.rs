@@ -4,7 +4,7 @@ use carom::material::Library;
 use carom::spec::{LawSpec, parse_law, parse_named_law};
 use carom::units::Number;
 use carom::{Impact, WallLaw};
-use carom_lab::fit::{BootstrapOptions, Data, Fit, Free, Options, Parameter, Resampling, fit};
+use carom_lab::fit::{BootstrapOptions, Data, Fit, Free, Key, Options, Parameter as _, Resampling, fit};
 
 const STEEL: &str = "sphere = \"stainless-steel\"\nsurface = \"silicon\"\nfriction = 0.2\n";
 
@@ -31,21 +31,21 @@ fn data(csv: &str) -> Data {
     Data::from_csv("d.csv", csv, Some(70e-6)).expect("points")
 }
 
-fn free(names: &[Parameter]) -> Vec<Free> {
+fn free(names: &[Key]) -> Vec<Free> {
     names.iter().copied().map(Free::new).collect()
 }
 
-fn found(keys: &str, names: &[Parameter], data: &Data, resamples: u32) -> Fit {
+fn found(keys: &str, names: &[Key], data: &Data, resamples: u32) -> Fit {
     let options = Options { bootstrap: BootstrapOptions { resamples, ..Default::default() } };
     fit(&law(keys), &free(names), data, Library::builtin(), &options).expect("it fits")
 }
 
-fn refused(keys: &str, names: &[Parameter], data: &Data) -> String {
+fn refused(keys: &str, names: &[Key], data: &Data) -> String {
     fit(&law(keys), &free(names), data, Library::builtin(), &Options::default()).expect_err("refused").to_string()
 }
 
 const SPEEDS: [f64; 12] = [0.01, 0.03, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 40.0];
-use Parameter::{AdhesionDamping, Friction, HertzDamping, PlasticConstant, RoughnessFactor, WorkOfAdhesion};
+use Key::{AdhesionDamping, Friction, HertzDamping, PlasticConstant, RoughnessFactor, WorkOfAdhesion};
 
 #[test]
 fn exact_data_give_the_law_back_from_far_starts() {
@@ -164,12 +164,17 @@ fn what_makes_no_sense_is_refused() {
     let points = data("speed,restitution\n1,0.9\n2,0.95\n3,0.9\n");
     for (keys, names, data, wanted) in [
         (ea, vec![Friction], &points, "friction does not act on the normal restitution; add a column"),
-        (ea, vec![PlasticConstant], &points, "plastic_constant changes nothing in this law; it acts in eap"),
+        (
+            ea,
+            vec![PlasticConstant],
+            &points,
+            "plastic_constant changes nothing in this law; it is read with normal = \"eap\"",
+        ),
         (
             "normal = \"tabor\"\nyield_velocity = 0.09\nmeyer_index = 2.29\n",
             vec![HertzDamping],
             &points,
-            "no hertz-damping",
+            "hertz_damping changes nothing in this law; it is read with",
         ),
         (ea, vec![HertzDamping, HertzDamping], &points, "hertz_damping is free twice"),
         (

@@ -5,7 +5,7 @@ use carom::material::Library;
 use carom::random::{Purpose, Stream};
 use carom::spec::{LawSpec, parse_law};
 use carom::{Impact, WallLaw};
-use carom_lab::fit::{BootstrapOptions, Data, Fit, Free, Measurement, Options, Parameter, fit};
+use carom_lab::fit::{BootstrapOptions, Data, Fit, Free, Key, Measurement, Options, Parameter as _, fit};
 use std::sync::Mutex;
 
 const SEED: u64 = 1;
@@ -14,7 +14,7 @@ const STEEL: &str = "sphere = \"stainless-steel\"\nsurface = \"silicon\"\nwork_o
 /// A known law, where it is measured, and how well.
 struct Study {
     law: String,
-    free: Vec<Parameter>,
+    free: Vec<Key>,
     speeds: Vec<f64>,
     angles: Vec<f64>,
     diameters: Vec<f64>,
@@ -85,9 +85,9 @@ impl Study {
         let mut blind = law.clone();
         for parameter in &self.free {
             match parameter {
-                Parameter::AdhesionDamping => blind.adhesion_damping = None,
-                Parameter::HertzDamping => blind.hertz_damping = None,
-                Parameter::RoughnessFactor => blind.roughness_factor = None,
+                Key::AdhesionDamping => blind.adhesion_damping = None,
+                Key::HertzDamping => blind.hertz_damping = None,
+                Key::RoughnessFactor => blind.roughness_factor = None,
                 other => other.set(&mut blind, 3.0 * other.start(&law, library)),
             }
         }
@@ -143,7 +143,7 @@ fn damped() -> Study {
         law: format!(
             "{STEEL}normal = \"ea\"\nfriction = 0\nroughness_factor = 0.15\nadhesion_damping = 1.3\nhertz_damping = 0.007\n"
         ),
-        free: vec![Parameter::AdhesionDamping, Parameter::HertzDamping, Parameter::RoughnessFactor],
+        free: vec![Key::AdhesionDamping, Key::HertzDamping, Key::RoughnessFactor],
         ..Study::default()
     }
 }
@@ -169,7 +169,7 @@ fn with_spheres_that_stayed_and_two_sizes() {
 fn work_of_adhesion_and_plastic_constant() {
     let study = Study {
         law: format!("{STEEL}normal = \"eap\"\nfriction = 0\nplastic_constant = 240e6\n"),
-        free: vec![Parameter::WorkOfAdhesion, Parameter::PlasticConstant],
+        free: vec![Key::WorkOfAdhesion, Key::PlasticConstant],
         noise: 0.005,
         ..Study::default()
     };
@@ -180,7 +180,7 @@ fn work_of_adhesion_and_plastic_constant() {
 fn friction_beside_roughness() {
     let study = Study {
         law: format!("{STEEL}normal = \"ea\"\nfriction = 0.15\nroughness_factor = 0.3\n"),
-        free: vec![Parameter::Friction, Parameter::RoughnessFactor],
+        free: vec![Key::Friction, Key::RoughnessFactor],
         speeds: log_spaced(0.3, 10.0, 5),
         angles: vec![15.0, 30.0, 60.0, 80.0],
         noise: 0.02,

@@ -78,6 +78,7 @@ impl Case {
     /// What is wrong, with its place in `text` ([`CaseError::located`] puts the line in front).
     pub fn from_toml(text: &str, name: &Path, library: &Library) -> Result<Self, CaseError> {
         let read: CaseText = toml::from_str(text)?;
+        let laws = carom::spec::parse_laws(text)?;
         let files = Files::new(name, text);
         let seed = read.seed.unwrap_or(1);
         let fluid = flow::fluid(read.fluid.as_ref())?;
@@ -103,17 +104,17 @@ impl Case {
             .wall
             .iter()
             .map(|at| {
-                let behavior = wall::behavior(at, &read.law, &injections, library)?;
+                let behavior = wall::behavior(at, &laws, &injections, library)?;
                 removal::with_removal(behavior, &at.value, &flow, &fluid, largest)
             })
             .collect::<Result<Vec<_>, _>>()?;
-        unused_laws(&read, library)?;
+        unused_laws(&read, &laws, library)?;
         let settings = settings(&read, seed, &behaviors)?;
         injected_in_the_fluid(&walls, &injections, &behaviors)?;
         sampled_starts(&walls, &injections, &behaviors)?;
         // materials come from a library that may change: what they are made of tells, and the text tells the rest
         let fingerprint =
-            materials(&read, library).iter().fold(files.fingerprint(), |f, m| f.with_material(m)).number();
+            materials(&read, &laws, library).iter().fold(files.fingerprint(), |f, m| f.with_material(m)).number();
         let output = read.output;
         let bins = bins(&output)?;
         notes.extend(read.forces.gravity.is_none().then(|| "no gravity: [forces] gives none".to_owned()));
@@ -163,11 +164,11 @@ impl Case {
 }
 
 /// The materials that a case names, in the order in which it does.
-fn materials(read: &CaseText, library: &Library) -> Vec<Material> {
+fn materials(read: &CaseText, laws: &wall::Laws, library: &Library) -> Vec<Material> {
     let injected = read.injection.iter().filter_map(|i| i.value.material.as_ref());
-    let laws = read.law.values().flat_map(|law| [law.value.sphere.as_ref(), law.value.surface.as_ref()]).flatten();
+    let named = laws.values().flat_map(|law| [law.value.sphere.as_ref(), law.value.surface.as_ref()]).flatten();
     // one that is not in the library is an error where it is used, and nothing where it is not
-    injected.chain(laws).filter_map(|m| m.value.resolve(library).ok()).collect()
+    injected.chain(named).filter_map(|m| m.value.resolve(library).ok()).collect()
 }
 
 /// Particles are counted one by one, and JSON's readers keep no more digits.
@@ -188,8 +189,8 @@ fn countable(injections: &[Injected]) -> Result<(), SpecError> {
 }
 
 /// Laws that no wall uses must be right too.
-fn unused_laws(read: &CaseText, library: &Library) -> Result<(), SpecError> {
-    for (name, law) in &read.law {
+fn unused_laws(read: &CaseText, laws: &wall::Laws, library: &Library) -> Result<(), SpecError> {
+    for (name, law) in laws {
         if wall::WORDS.contains(&name.as_str()) {
             let message = format!("a law may not be called '{name}'");
             return Err(wrong(law, message).help("that word has its own meaning at a wall"));

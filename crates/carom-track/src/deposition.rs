@@ -168,7 +168,7 @@ impl Deposition {
                         continue;
                     }
                     let (from, to) = bins.bounds(bin);
-                    let (low, high) = wilson(kept.count, injected.count);
+                    let (low, high) = carom::study::wilson(kept.count, injected.count);
                     let fraction = kept.count as f64 / injected.count as f64;
                     let masses = (kept.mass.value(), kept.mass.value() / injected.mass.value());
                     let to = to.is_finite().then_some(to);
@@ -192,35 +192,9 @@ impl Deposition {
     }
 }
 
-/// Wilson's 95 % interval of a share of `n`.
-pub fn wilson(hits: u64, n: u64) -> (f64, f64) {
-    const Z: f64 = 1.959_963_984_540_054;
-    if n == 0 {
-        return (0.0, 1.0);
-    }
-    let (n, hits) = (n as f64, hits as f64);
-    let p = hits / n;
-    let z2 = Z * Z / n;
-    let centre = p + 0.5 * z2;
-    let reach = Z * (p * (1.0 - p) / n + 0.25 * z2 / n).sqrt();
-    let low = if hits == 0.0 { 0.0 } else { ((centre - reach) / (1.0 + z2)).max(0.0) };
-    let high = if hits == n { 1.0 } else { ((centre + reach) / (1.0 + z2)).min(1.0) };
-    (low, high)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn wilsons_interval_is_as_published() {
-        // Newcombe 1998, Stat. Med. 17, 857-872, table I, method 3: 81/263 and 0/20
-        let (low, high) = wilson(81, 263);
-        assert!((low - 0.2553).abs() < 5e-5 && (high - 0.3662).abs() < 5e-5, "{low} {high}");
-        let (low, high) = wilson(0, 20);
-        assert!(low == 0.0 && (high - 0.1611).abs() < 5e-5, "{high}");
-        assert!((1..5000).all(|n| wilson(0, n).0 == 0.0 && wilson(n, n).1 == 1.0));
-    }
 
     #[test]
     fn bins_and_regions_hold_what_they_say() {

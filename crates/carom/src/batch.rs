@@ -15,7 +15,7 @@
 //! let incidence = Incidence { normal: &[1.0, 1e-3], tangential: &[2.0, 2.0], spin: &[0.0, 0.0], diameter: &[90e-6, 5e-6] };
 //! wall.impact_batch(&incidence, &mut Rebound::new(&mut n, &mut t, &mut w)).expect("columns of equal length, all approaching");
 //! assert!(n[0] > 0.0 && n[1] == 0.0); // the second is captured
-//! # Ok::<(), carom::SpecError>(())
+//! # Ok::<(), carom::LawError>(())
 //! ```
 
 pub use crate::instructions::InstructionSet;
@@ -65,19 +65,28 @@ impl<'a> Rebound<'a> {
 }
 
 /// A batch that was not wholly done.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BatchError {
     /// The columns differ in length; nothing was written.
-    #[error("the columns differ in length")]
     Lengths,
     /// The row `index` is no impact. Its outputs are NaN, as are those of any other such row; all other rows are done.
-    #[error("row {index}: {error}")]
     Row {
         /// The first such row.
         index: usize,
         /// What is wrong with it.
         error: ImpactError,
     },
+}
+
+impl core::error::Error for BatchError {}
+
+impl core::fmt::Display for BatchError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Lengths => f.write_str("the columns differ in length"),
+            Self::Row { index, error } => write!(f, "row {index}: {error}"),
+        }
+    }
 }
 
 impl WallLaw {

@@ -1,36 +1,97 @@
-//! The one error of everything that is read from text: what, where, and what would be right.
+//! The one error of what describes a wall law: materials, keys, texts. Data first: kind, key, value, place; each front words it for its
+//! own users.
+//!
+//! ```
+//! use carom::{WallLaw, error::ErrorKind, spec::NormalKind};
+//! let error = WallLaw::builder().normal(NormalKind::Tabor).yield_velocity(0.09).build().unwrap_err();
+//! assert_eq!((error.kind(), error.key()), (ErrorKind::MissingKey, Some("meyer_index")));
+//! assert_eq!(error.to_string(), "normal = \"tabor\" needs Meyer's index; give meyer_index = 2.29");
+//! ```
 
-use std::fmt;
-use std::ops::Range;
+mod problem;
+mod wording;
+
+use alloc::boxed::Box;
+use alloc::string::String;
+use alloc::string::ToString;
+pub(crate) use problem::{Problem, read_with};
+pub use wording::{Keys, Wording};
+
+use crate::spec::Key;
+use core::fmt;
+use core::ops::Range;
+
+/// What kind of mistake it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum ErrorKind {
+    /// A text that cannot be read, or a mistake that only a reader of files can make.
+    Text,
+    /// A key that there is not.
+    UnknownKey,
+    /// A name that a key does not take: of a law, a loss, a curve.
+    UnknownName,
+    /// A material that the library does not have.
+    UnknownMaterial,
+    /// A key that the law needs.
+    MissingKey,
+    /// A sphere or a surface that the law needs.
+    MissingMaterial,
+    /// A property of a material that the law needs.
+    MissingProperty,
+    /// A value that cannot be, or is not plausible.
+    OutOfRange,
+    /// A quantity whose text cannot be read, or whose unit does not fit.
+    WrongUnit,
+    /// A text where a number is wanted, and the like.
+    WrongType,
+    /// A key that this law does not read.
+    IdleKey,
+    /// Keys, losses or forms that exclude each other.
+    Conflict,
+}
 
 /// What is wrong in a law, a material or a parameter, where (bytes of the text, if it came from one), and the remedy.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub struct SpecError {
-    /// What is wrong, naming the value.
-    pub message: String,
+///
+/// Its `Display` speaks of keys; [`LawError::message_in`] and [`LawError::help_in`] take the words of another front.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LawError {
+    problem: Box<Problem>,
+    /// What the mistake is part of, such as a material.
+    within: Option<String>,
+    /// The law's key that it is laid on, where that is not the problem's own.
+    blamed: Option<Key>,
     /// Byte range in the text it was read from.
     pub span: Option<Range<usize>>,
-    /// What would be right.
-    pub help: Option<String>,
 }
 
-impl fmt::Display for SpecError {
+impl From<Problem> for LawError {
+    fn from(problem: Problem) -> Self {
+        Self { problem: Box::new(problem), within: None, blamed: None, span: None }
+    }
+}
+
+impl core::error::Error for LawError {}
+
+impl fmt::Display for LawError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.message)?;
-        self.help.as_ref().map_or(Ok(()), |help| write!(f, "; {help}"))
+        f.write_str(&self.message())?;
+        self.remedy().map_or(Ok(()), |help| write!(f, "; {help}"))
     }
 }
 
-impl SpecError {
-    /// An error with no place yet.
+impl LawError {
+    /// An error in a reader's own words, with no place yet.
     pub fn new(message: impl Into<String>) -> Self {
-        Self { message: message.into(), span: None, help: None }
+        Problem::Text { message: message.into(), help: None }.into()
     }
 
-    /// Adds what would be right.
+    /// Adds what would be right, to an error in a reader's own words.
     #[must_use]
-    pub fn help(mut self, help: impl Into<String>) -> Self {
-        self.help = Some(help.into());
+    pub fn help(mut self, text: impl Into<String>) -> Self {
+        if let Problem::Text { help, .. } = &mut *self.problem {
+            *help = Some(text.into());
+        }
         self
     }
 
@@ -39,6 +100,79 @@ impl SpecError {
     pub fn at(mut self, span: Option<Range<usize>>) -> Self {
         self.span = self.span.or(span);
         self
+    }
+
+    /// Without its place: of a value that stands alone.
+    pub(crate) fn without_place(self) -> Self {
+        Self { span: None, ..self }
+    }
+
+    /// Adds what the mistake is part of: `material glass`.
+    #[must_use]
+    pub fn within(mut self, what: impl Into<String>) -> Self {
+        self.within = Some(what.into());
+        self
+    }
+
+    /// Its kind.
+    pub fn kind(&self) -> ErrorKind {
+        self.problem.kind()
+    }
+
+    /// The key or property it is about.
+    pub fn key(&self) -> Option<&str> {
+        self.problem.key()
+    }
+
+    /// The value as given.
+    pub fn value(&self) -> Option<&str> {
+        self.problem.value()
+    }
+
+    /// The character and the reason where the text of a quantity cannot be read.
+    pub fn unit_error(&self) -> Option<&crate::units::UnitError> {
+        match &*self.problem {
+            Problem::WrongUnit { error, .. } => Some(error),
+            _ => None,
+        }
+    }
+
+    /// The law's key whose value is to be marked in a text.
+    pub(crate) fn blames(&self) -> Option<Key> {
+        self.blamed.or_else(|| self.problem.blames())
+    }
+
+    /// Lays it on a key of the law, unless it is on one already.
+    pub(crate) fn blame(mut self, key: Key) -> Self {
+        self.blamed = self.blames().or(Some(key));
+        self
+    }
+
+    /// What is wrong, in the words of a law's text.
+    pub fn message(&self) -> String {
+        self.message_in(&Keys)
+    }
+
+    /// What would be right, in the words of a law's text.
+    pub fn remedy(&self) -> Option<String> {
+        self.help_in(&Keys)
+    }
+
+    /// What is wrong, in the words of a front.
+    pub fn message_in(&self, words: &dyn Wording) -> String {
+        let message = self.problem.message(words);
+        self.within.as_ref().map_or(message.clone(), |within| format!("{within}: {message}"))
+    }
+
+    /// What would be right, in the words of a front.
+    pub fn help_in(&self, words: &dyn Wording) -> Option<String> {
+        self.problem.help(words)
+    }
+
+    /// Message and remedy in a line, in the words of a front.
+    pub fn said_in(&self, words: &dyn Wording) -> String {
+        let message = self.message_in(words);
+        self.help_in(words).map_or(message.clone(), |help| format!("{message}; {help}"))
     }
 
     /// Line and column (both from 1) of the error in the text it came from.
@@ -69,66 +203,44 @@ impl SpecError {
     }
 }
 
-impl From<toml::de::Error> for SpecError {
+#[cfg(feature = "toml")]
+impl From<toml::de::Error> for LawError {
     fn from(e: toml::de::Error) -> Self {
         let message = e.message().trim().replace('\n', ", ");
-        Self { span: e.span(), ..unknown_key(&message).unwrap_or_else(|| Self::new(message)) }
+        unknown_key(&message).unwrap_or_else(|| Self::new(message)).at(e.span())
     }
 }
 
 /// serde's "unknown field `a`, expected one of `b`, `c`", said as everything else here is.
-fn unknown_key(message: &str) -> Option<SpecError> {
+#[cfg(feature = "toml")]
+fn unknown_key(message: &str) -> Option<LawError> {
     let (wrong, expected) = message.strip_prefix("unknown field `")?.split_once('`')?;
     let known: Vec<&str> = expected.split('`').skip(1).step_by(2).collect();
     let near = did_you_mean(wrong, known.iter().copied()).map_or(String::new(), |n| format!("{n} "));
-    Some(SpecError::new(format!("unknown key '{wrong}'")).help(format!("{near}known are {}", known.join(", "))))
+    Some(LawError::new(format!("unknown key '{wrong}'")).help(format!("{near}known are {}", known.join(", "))))
 }
 
 /// The candidate nearest to what was written, if one is near: "did you mean ...?".
 pub fn did_you_mean<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<String> {
+    nearest(wrong, candidates).map(|c| format!("did you mean {c}?"))
+}
+
+/// The candidate nearest to what was written, if one is near.
+#[cfg(feature = "std")]
+pub(crate) fn nearest<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let lower = wrong.to_lowercase();
     candidates
         .into_iter()
         .map(|c| (strsim::damerau_levenshtein(&lower, &c.to_lowercase()), c))
         .filter(|&(distance, c)| distance <= 1 + c.len().min(lower.len()) / 4)
         .min()
-        .map(|(_, c)| format!("did you mean {c}?"))
+        .map(|(_, c)| c)
+}
+
+#[cfg(not(feature = "std"))]
+pub(crate) fn nearest<'a>(_: &str, _: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    None
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn suggestions_are_near_or_absent() {
-        let names = ["copper", "nickel", "gold"];
-        assert_eq!(did_you_mean("coper", names), Some("did you mean copper?".into()));
-        assert_eq!(did_you_mean("Coppre", names), Some("did you mean copper?".into()));
-        assert_eq!(did_you_mean("unobtainium", names), None);
-    }
-
-    #[test]
-    fn unknown_keys_have_neighbours() {
-        let text = "normal = \"ea\"\nfrictoin = 0.2\n";
-        let error = crate::spec::parse_law(text).expect_err("a misspelt key");
-        assert_eq!(error.message, "unknown key 'frictoin'");
-        assert!(error.help.is_some_and(|h| h.starts_with("did you mean friction? known are sphere,")));
-    }
-
-    #[test]
-    fn place_is_line_and_column() {
-        let e = SpecError::new("bad").at(Some(6..9)).help("be good");
-        assert_eq!(e.located("law.toml", "a = 1\nb = x\n"), "law.toml:2:1: bad; be good");
-    }
-
-    #[test]
-    fn the_line_is_shown_with_its_place() {
-        let text = "a = 1\n\tµ = xyz\n";
-        let e = SpecError::new("bad").at(Some(12..15));
-        assert_eq!(e.shown("law.toml", text), "law.toml:2:6: bad\n  2 | \tµ = xyz\n    | \t    ^^^");
-        assert_eq!(SpecError::new("bad").shown("law.toml", text), "law.toml: bad");
-        // a whole table is marked on its first line only, and a place at the end of the text has no line
-        assert!(SpecError::new("bad").at(Some(0..15)).shown("t", text).ends_with("  1 | a = 1\n    | ^^^^^"));
-        assert!(SpecError::new("bad").at(Some(16..16)).shown("t", text).ends_with("  3 | \n    | ^"));
-    }
-}
+mod tests;

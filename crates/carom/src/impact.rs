@@ -114,27 +114,38 @@ pub struct Outcome {
 }
 
 /// An impact that is none. The sphere is as it was.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ImpactError {
     /// The sphere does not move towards the wall.
-    #[error("the sphere does not approach the wall: the velocity relative to it, along the normal, must be negative")]
     NotApproaching,
-    /// The diameter is not between 0.1 nm and 10 m.
-    #[error("the diameter must lie between 1e-10 m and 10 m")]
+    /// The diameter is not between 0.1 nm and 1 m.
     Diameter,
     /// The density is not positive, or not within a factor of 1000 of the law's sphere.
-    #[error("the density must be positive and within a factor of 1000 of the law's sphere")]
     Density,
     /// A velocity, spin or normal is NaN or infinite, the motion is beyond about 1e9 m/s, or a wall that scatters is given a draw outside
     /// [0, 1).
-    #[error(
-        "velocities and spins must be finite and below 1e9 m/s at the surface, the normal finite and not zero, draws in [0, 1)"
-    )]
     NotFinite,
     /// The sphere slips along the wall, and the law was given no friction coefficient.
-    #[error("the sphere slips along the wall, and the law has no friction coefficient")]
     FrictionNotGiven,
     /// The concave surface is not wider than the sphere.
-    #[error("the surface is concave and its radius of curvature must exceed the sphere's radius")]
     Curvature,
+}
+
+impl core::error::Error for ImpactError {}
+
+impl core::fmt::Display for ImpactError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(match self {
+            Self::NotApproaching => {
+                "the sphere does not approach the wall: the velocity relative to it, along the normal, must be negative"
+            }
+            Self::Diameter => "the diameter must lie between 1e-10 m and 1 m",
+            Self::Density => "the density must be positive and within a factor of 1000 of the law's sphere",
+            Self::NotFinite => {
+                "velocities and spins must be finite and below 1e9 m/s at the surface, the normal finite and not zero, draws in [0, 1)"
+            }
+            Self::Curvature => "the surface is concave and its radius of curvature must exceed the sphere's radius",
+            Self::FrictionNotGiven => "the sphere slips along the wall, and the law has no friction coefficient",
+        })
+    }
 }

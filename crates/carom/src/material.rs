@@ -14,19 +14,22 @@
 //! "#)?;
 //! assert_eq!(library.get("my-steel")?.density, Some(7850.0));
 //! assert!(library.get("my-steal").is_err_and(|e| e.to_string().contains("did you mean my-steel?")));
-//! # Ok::<(), carom::SpecError>(())
+//! # Ok::<(), carom::LawError>(())
 //! ```
 
 mod inline;
 mod library;
 mod property;
+mod read;
 
+use alloc::borrow::ToOwned;
+use alloc::boxed::Box;
+use alloc::string::String;
+use alloc::vec::Vec;
 pub use library::Library;
 pub use property::{Alternative, Property, PropertyKind};
 
-use crate::error::SpecError;
-use property::Fields;
-use serde::Deserialize as _;
+use crate::error::LawError;
 
 /// A material. Values in SI units; what is not known is `None`.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -66,23 +69,10 @@ impl Material {
     /// ```
     /// let steel = carom::material::Material::from_inline("rho=8000,E=190GPa,nu=0.27")?;
     /// assert_eq!(steel.young_modulus, Some(190e9));
-    /// # Ok::<(), carom::SpecError>(())
+    /// # Ok::<(), carom::LawError>(())
     /// ```
-    pub fn from_inline(text: &str) -> Result<Self, SpecError> {
+    pub fn from_inline(text: &str) -> Result<Self, LawError> {
         inline::parse(text)
-    }
-
-    /// The nominal value of a property, if known.
-    pub fn value(&self, kind: PropertyKind) -> Option<f64> {
-        match kind {
-            PropertyKind::Density => self.density,
-            PropertyKind::YoungModulus => self.young_modulus,
-            PropertyKind::PoissonRatio => self.poisson_ratio,
-            PropertyKind::SurfaceEnergy => self.surface_energy,
-            PropertyKind::YieldStrength => self.yield_strength,
-            PropertyKind::Hardness => self.hardness,
-            PropertyKind::TensileStrength => self.tensile_strength,
-        }
     }
 
     /// Everything known about a property: range, source, alternatives.
@@ -90,45 +80,26 @@ impl Material {
         self.properties.iter().find(|(k, _)| *k == kind).map(|(_, p)| p)
     }
 
-    fn from_fields(name: &str, fields: Fields) -> Result<Self, SpecError> {
-        let mut material = Self {
-            name: name.to_owned(),
-            description: fields.description.unwrap_or_default(),
-            aliases: fields.aliases,
-            note: fields.note,
-            ..Self::default()
-        };
-        let read = [
-            (PropertyKind::Density, fields.density.map(|p| p.map(|q| q.0))),
-            (PropertyKind::YoungModulus, fields.young_modulus.map(|p| p.map(|q| q.0))),
-            (PropertyKind::PoissonRatio, fields.poisson_ratio.map(|p| p.map(|q| q.0))),
-            (PropertyKind::SurfaceEnergy, fields.surface_energy.map(|p| p.map(|q| q.0))),
-            (PropertyKind::YieldStrength, fields.yield_strength.map(|p| p.map(|q| q.0))),
-            (PropertyKind::Hardness, fields.hardness.map(|p| p.map(|q| q.0))),
-            (PropertyKind::TensileStrength, fields.tensile_strength.map(|p| p.map(|q| q.0))),
-        ];
-        for (kind, property) in read {
-            if let Some(property) = property {
-                let span = property.span.clone();
-                let property: Property = property.into();
-                kind.check(&property).map_err(|e| e.at(span))?;
-                material.set(kind, property);
-            }
-        }
-        Ok(material)
+    /// A material of which nothing is known yet.
+    pub fn new(name: impl Into<String>) -> Self {
+        Self { name: name.into(), ..Self::default() }
+    }
+
+    /// Adds a property in SI units; [`crate::spec::LawBuilder::build`] checks its range.
+    #[must_use]
+    pub fn with(mut self, kind: PropertyKind, value: f64) -> Self {
+        self.properties.retain(|(k, _)| *k != kind);
+        self.set(kind, Property { value, ..Property::default() });
+        self
+    }
+
+    /// Each known value within its range.
+    pub(crate) fn check(&self) -> Result<(), LawError> {
+        PropertyKind::ALL.iter().filter_map(|k| Some((k, self.value(*k)?))).try_for_each(|(k, v)| k.check_value(v))
     }
 
     fn set(&mut self, kind: PropertyKind, property: Property) {
-        let value = Some(property.value);
-        match kind {
-            PropertyKind::Density => self.density = value,
-            PropertyKind::YoungModulus => self.young_modulus = value,
-            PropertyKind::PoissonRatio => self.poisson_ratio = value,
-            PropertyKind::SurfaceEnergy => self.surface_energy = value,
-            PropertyKind::YieldStrength => self.yield_strength = value,
-            PropertyKind::Hardness => self.hardness = value,
-            PropertyKind::TensileStrength => self.tensile_strength = value,
-        }
+        *self.slot(kind) = Some(property.value);
         self.properties.push((kind, property));
     }
 }
@@ -147,7 +118,7 @@ impl MaterialRef {
     ///
     /// # Errors
     /// An unknown name, with the nearest known one; a bad inline text.
-    pub fn resolve(&self, library: &Library) -> Result<Material, SpecError> {
+    pub fn resolve(&self, library: &Library) -> Result<Material, LawError> {
         match self {
             Self::Inline(material) => Ok((**material).clone()),
             Self::Name(text) if text.contains('=') => Material::from_inline(text),
@@ -156,9 +127,9 @@ impl MaterialRef {
     }
 }
 
-impl std::str::FromStr for MaterialRef {
-    type Err = SpecError;
-    fn from_str(text: &str) -> Result<Self, SpecError> {
+impl core::str::FromStr for MaterialRef {
+    type Err = LawError;
+    fn from_str(text: &str) -> Result<Self, LawError> {
         if text.contains('=') {
             Material::from_inline(text).map(|m| Self::Inline(Box::new(m)))
         } else {
@@ -167,27 +138,5 @@ impl std::str::FromStr for MaterialRef {
     }
 }
 
-impl<'de> serde::Deserialize<'de> for MaterialRef {
-    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct NameOrTable;
-        impl<'de> serde::de::Visitor<'de> for NameOrTable {
-            type Value = MaterialRef;
-            fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-                f.write_str("a material's name, or a table of its properties")
-            }
-            fn visit_str<E: serde::de::Error>(self, v: &str) -> Result<MaterialRef, E> {
-                v.parse().map_err(E::custom)
-            }
-            fn visit_map<A: serde::de::MapAccess<'de>>(self, map: A) -> Result<MaterialRef, A::Error> {
-                let fields = Fields::deserialize(serde::de::value::MapAccessDeserializer::new(map))?;
-                Material::from_fields("inline", fields)
-                    .map(|m| MaterialRef::Inline(Box::new(m)))
-                    .map_err(serde::de::Error::custom)
-            }
-        }
-        deserializer.deserialize_any(NameOrTable)
-    }
-}
-
-#[cfg(test)]
+#[cfg(all(test, feature = "toml"))]
 mod tests;

@@ -17,13 +17,40 @@ pub use fma::{BEST, Best, Fma, Fused, Plain, Watched, watched};
 /// √x, correctly rounded.
 #[inline(always)]
 pub fn sqrt(x: f64) -> f64 {
-    x.sqrt()
+    #[cfg(feature = "std")]
+    return x.sqrt();
+    #[cfg(not(feature = "std"))]
+    libm::sqrt(x)
 }
 
 /// The largest whole number that is not above x.
 #[inline(always)]
 pub fn floor(x: f64) -> f64 {
-    x.floor()
+    #[cfg(feature = "std")]
+    return x.floor();
+    #[cfg(not(feature = "std"))]
+    libm::floor(x)
+}
+
+/// What [`f64`] can do with the standard library, for modules that stand above the kernel and are written with it.
+#[cfg(not(feature = "std"))]
+pub(crate) trait Plainly {
+    fn sqrt(self) -> f64;
+    fn round(self) -> f64;
+    fn fract(self) -> f64;
+}
+
+#[cfg(not(feature = "std"))]
+impl Plainly for f64 {
+    fn sqrt(self) -> f64 {
+        libm::sqrt(self)
+    }
+    fn round(self) -> f64 {
+        libm::round(self)
+    }
+    fn fract(self) -> f64 {
+        self - libm::trunc(self)
+    }
 }
 
 /// ∛x, correctly rounded.

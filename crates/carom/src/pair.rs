@@ -10,10 +10,13 @@
 //!   which a brittle body breaks in tension is no yield strength and is never used: under the pressure of a small contact silicon flows
 //!   at about 10 GPa, though a wafer breaks at 0.1 GPa.
 
-use crate::error::SpecError;
-use crate::material::Material;
+use crate::error::{LawError, Problem};
+use crate::material::{Material, PropertyKind};
+#[cfg(not(feature = "std"))]
+use crate::math::Plainly as _;
 use crate::normal::plastic::LAMBDA;
-use std::f64::consts::PI;
+use crate::spec::Key;
+use core::f64::consts::PI;
 
 /// Values that replace what the materials would give.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -73,24 +76,60 @@ pub struct Strength {
 /// let pair = Pair::new(&steel, &silicon, &Overrides::default());
 /// assert_eq!((pair.stiffness()? / 1e8).round(), 1278.0); // Table 2: 127.8 GPa
 /// assert_eq!((pair.work_of_adhesion()? * 100.0).round(), 303.0); // Table 2: 3.03 J/m²
-/// # Ok::<(), carom::SpecError>(())
+/// # Ok::<(), carom::LawError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pair {
     sphere: Material,
     surface: Material,
+    /// Whether each of the two was given: a law may need neither.
+    given: [bool; 2],
     overrides: Overrides,
-}
-
-fn missing(material: &Material, what: &str, key: &str, instead: &str) -> SpecError {
-    let name = if material.name.is_empty() { "the material" } else { &material.name };
-    SpecError::new(format!("{name} has no {what}")).help(format!("give its {key}{instead}"))
 }
 
 impl Pair {
     /// Puts two materials together.
     pub fn new(sphere: &Material, surface: &Material, overrides: &Overrides) -> Self {
-        Self { sphere: sphere.clone(), surface: surface.clone(), overrides: *overrides }
+        Self::of(Some(sphere), Some(surface), overrides)
+    }
+
+    /// As [`Pair::new`], where one of the two, or both, may be missing.
+    pub(crate) fn of(sphere: Option<&Material>, surface: Option<&Material>, overrides: &Overrides) -> Self {
+        let given = [sphere.is_some(), surface.is_some()];
+        let body = |material: Option<&Material>, name: &str| material.cloned().unwrap_or_else(|| Material::new(name));
+        Self { sphere: body(sphere, "sphere"), surface: body(surface, "surface"), given, overrides: *overrides }
+    }
+
+    /// A property of one body that the law needs; `instead` would do for it.
+    fn needed(&self, body: Body, property: PropertyKind, instead: Option<Key>) -> Result<f64, LawError> {
+        let (material, given) = match body {
+            Body::Sphere => (&self.sphere, self.given[0]),
+            Body::Surface => (&self.surface, self.given[1]),
+        };
+        material.value(property).ok_or_else(|| match given {
+            true => Problem::MissingProperty { material: material.name.clone(), property, instead }.into(),
+            false => {
+                let sphere = body == Body::Sphere;
+                Problem::MissingMaterial { sphere, surface: !sphere, reader: None }.into()
+            }
+        })
+    }
+
+    /// Young's modulus and Poisson's ratio of one body.
+    fn elasticity(&self, body: Body, instead: Option<Key>) -> Result<[f64; 2], LawError> {
+        Ok([
+            self.needed(body, PropertyKind::YoungModulus, instead)?,
+            self.needed(body, PropertyKind::PoissonRatio, instead)?,
+        ])
+    }
+
+    /// Compliance k_i = (1 − ν_i²)/(πE_i), 1/Pa (Eq. 6), of one body.
+    ///
+    /// # Errors
+    /// No Young's modulus or no Poisson's ratio.
+    pub fn compliance(&self, body: Body) -> Result<f64, LawError> {
+        let [e, nu] = self.elasticity(body, Some(Key::Stiffness))?;
+        Ok((1.0 - nu * nu) / (PI * e))
     }
 
     /// The sphere's material.
@@ -107,26 +146,26 @@ impl Pair {
     ///
     /// # Errors
     /// The sphere's material has none.
-    pub fn density(&self) -> Result<f64, SpecError> {
-        self.sphere.density.ok_or_else(|| missing(&self.sphere, "density", "density (rho)", ""))
+    pub fn density(&self) -> Result<f64, LawError> {
+        self.needed(Body::Sphere, PropertyKind::Density, None)
     }
 
     /// Hertzian stiffness K, Pa (Eq. 5).
     ///
     /// # Errors
     /// A material without Young's modulus or Poisson's ratio, and no override.
-    pub fn stiffness(&self) -> Result<f64, SpecError> {
+    pub fn stiffness(&self) -> Result<f64, LawError> {
         if let Some(k) = self.overrides.stiffness {
             return Ok(k);
         }
-        Ok(4.0 / (3.0 * PI * (compliance(&self.sphere)? + compliance(&self.surface)?)))
+        Ok(4.0 / (3.0 * PI * (self.compliance(Body::Sphere)? + self.compliance(Body::Surface)?)))
     }
 
     /// Effective modulus E* = (3/4)K, Pa.
     ///
     /// # Errors
     /// As [`Pair::stiffness`].
-    pub fn effective_modulus(&self) -> Result<f64, SpecError> {
+    pub fn effective_modulus(&self) -> Result<f64, LawError> {
         Ok(0.75 * self.stiffness()?)
     }
 
@@ -135,10 +174,10 @@ impl Pair {
     ///
     /// # Errors
     /// A material without Young's modulus or Poisson's ratio.
-    pub fn stiffness_ratio(&self) -> Result<f64, SpecError> {
+    pub fn stiffness_ratio(&self) -> Result<f64, LawError> {
         let (mut normal, mut tangential) = (0.0, 0.0);
-        for m in [&self.sphere, &self.surface] {
-            let [e, nu] = elasticity(m, "")?;
+        for body in [Body::Sphere, Body::Surface] {
+            let [e, nu] = self.elasticity(body, None)?;
             normal += (1.0 - nu * nu) / e;
             // (2 − ν)/(4G) with G = E/(2(1 + ν))
             tangential += (2.0 - nu) * (1.0 + nu) / (2.0 * e);
@@ -150,18 +189,14 @@ impl Pair {
     ///
     /// # Errors
     /// A material without surface energy, and no override.
-    pub fn work_of_adhesion(&self) -> Result<f64, SpecError> {
+    pub fn work_of_adhesion(&self) -> Result<f64, LawError> {
         if let Some(w) = self.overrides.work_of_adhesion {
             return Ok(w);
         }
-        let gamma = |m: &Material| {
-            m.surface_energy.ok_or_else(|| {
-                missing(m, "surface energy", "surface_energy (gamma)", ", or the pair's work_of_adhesion")
-            })
-        };
+        let gamma = |body| self.needed(body, PropertyKind::SurfaceEnergy, Some(Key::WorkOfAdhesion));
         Ok(2.0
             * self.overrides.interfacial_parameter.unwrap_or(1.0)
-            * (gamma(&self.sphere)? * gamma(&self.surface)?).sqrt())
+            * (gamma(Body::Sphere)? * gamma(Body::Surface)?).sqrt())
     }
 
     /// Plastic constant k, Pa, of the body whose contact yields first. A body with neither yield strength nor hardness is taken to
@@ -173,16 +208,16 @@ impl Pair {
     /// ```
     /// use carom::{material::Library, pair::{Overrides, Pair, StrengthSource}};
     /// let library = Library::builtin();
-    /// let pair = |sphere, surface| -> Result<_, carom::SpecError> {
+    /// let pair = |sphere, surface| -> Result<_, carom::LawError> {
     ///     Ok(Pair::new(library.get(sphere)?, library.get(surface)?, &Overrides::default()))
     /// };
     /// // steel on silicon: the steel yields (sigma = 310 MPa), not the silicon, which is hard though it breaks at 120 MPa
     /// assert_eq!(pair("stainless-steel", "silicon")?.plastic_constant()?, 155e6);
     /// // quartz on silicon: both are brittle, and their hardness limits the pressure
     /// assert_eq!(pair("quartz", "silicon")?.strength()?.source, StrengthSource::Hardness);
-    /// # Ok::<(), carom::SpecError>(())
+    /// # Ok::<(), carom::LawError>(())
     /// ```
-    pub fn plastic_constant(&self) -> Result<f64, SpecError> {
+    pub fn plastic_constant(&self) -> Result<f64, LawError> {
         self.strength().map(|s| s.plastic_constant)
     }
 
@@ -190,20 +225,20 @@ impl Pair {
     ///
     /// # Errors
     /// As [`Pair::plastic_constant`].
-    pub fn strength(&self) -> Result<Strength, SpecError> {
+    pub fn strength(&self) -> Result<Strength, LawError> {
         let factor = self.overrides.dynamic_strength_factor.unwrap_or(1.0);
         let strength = match self.overrides.plastic_constant {
             Some(k) => Some(Strength { plastic_constant: k, source: StrengthSource::Given, body: None }),
             None => weaker(strength_of(&self.sphere, Body::Sphere), strength_of(&self.surface, Body::Surface)),
         };
-        let strength = strength.ok_or_else(|| {
-            SpecError::new(format!(
-                "neither {} nor {} has a yield strength or a hardness",
-                self.sphere.name, self.surface.name
-            ))
-            .help(
-                "give yield_strength (sigma) or hardness (H) of the softer one, or the pair's plastic_constant k = sigma/2",
-            )
+        let strength = strength.ok_or_else(|| match self.given {
+            [true, true] => Problem::MissingInBoth {
+                sphere: self.sphere.name.clone(),
+                surface: self.surface.name.clone(),
+                properties: [PropertyKind::YieldStrength, PropertyKind::Hardness],
+                instead: Key::PlasticConstant,
+            },
+            [sphere, surface] => Problem::MissingMaterial { sphere: !sphere, surface: !surface, reader: None },
         })?;
         Ok(Strength { plastic_constant: factor * strength.plastic_constant, ..strength })
     }
@@ -222,23 +257,6 @@ fn weaker(a: Option<Strength>, b: Option<Strength>) -> Option<Strength> {
         (Some(a), Some(b)) => Some(if b.plastic_constant < a.plastic_constant { b } else { a }),
         (a, b) => a.or(b),
     }
-}
-
-/// Compliance k_i = (1 − ν²)/(πE), 1/Pa (Eq. 6).
-///
-/// # Errors
-/// No Young's modulus or no Poisson's ratio.
-pub fn compliance(m: &Material) -> Result<f64, SpecError> {
-    let [e, nu] = elasticity(m, ", or the pair's stiffness")?;
-    Ok((1.0 - nu * nu) / (PI * e))
-}
-
-/// Young's modulus and Poisson's ratio; `instead` is what else would do.
-fn elasticity(m: &Material, instead: &str) -> Result<[f64; 2], SpecError> {
-    Ok([
-        m.young_modulus.ok_or_else(|| missing(m, "Young's modulus", "young_modulus (E)", instead))?,
-        m.poisson_ratio.ok_or_else(|| missing(m, "Poisson's ratio", "poisson_ratio (nu)", instead))?,
-    ])
 }
 
 #[cfg(test)]
@@ -294,17 +312,17 @@ mod tests {
         let fast = Overrides { dynamic_strength_factor: Some(3.0), ..none };
         for (sphere, surface, overrides, wanted) in [
             // a ductile body's yield strength, whatever its hardness
-            ("sigma=310MPa,H=1.3GPa", "rho=1", none, Some((155e6, YieldStrength, Some(Sphere)))),
+            ("sigma=310MPa,H=1.3GPa", "rho=1000", none, Some((155e6, YieldStrength, Some(Sphere)))),
             // a brittle body's hardness: the mean pressure 5.7 k is H
-            ("rho=1", "H=5.7GPa,sigma_t=120MPa", none, Some((1e9, Hardness, Some(Surface)))),
+            ("rho=1000", "H=5.7GPa,sigma_t=120MPa", none, Some((1e9, Hardness, Some(Surface)))),
             ("sigma=310MPa", "H=5.7GPa,sigma_t=120MPa", none, Some((155e6, YieldStrength, Some(Sphere)))),
             ("sigma=4GPa", "H=5.7GPa,sigma_t=120MPa", none, Some((1e9, Hardness, Some(Surface)))),
             ("sigma_t=120MPa", "sigma_t=50MPa", none, None),
             // told to
-            ("rho=1", "sigma=120MPa,sigma_t=120MPa", none, Some((60e6, YieldStrength, Some(Surface)))),
+            ("rho=1000", "sigma=120MPa,sigma_t=120MPa", none, Some((60e6, YieldStrength, Some(Surface)))),
             ("sigma=310MPa", "H=5.7GPa", given, Some((1e8, Given, None))),
             ("sigma=310MPa", "H=5.7GPa", fast, Some((3.0 * 155e6, YieldStrength, Some(Sphere)))),
-            ("sigma=310MPa", "rho=1", Overrides { plastic_constant: Some(1e8), ..fast }, Some((3e8, Given, None))),
+            ("sigma=310MPa", "rho=1000", Overrides { plastic_constant: Some(1e8), ..fast }, Some((3e8, Given, None))),
         ] {
             let got = strength(sphere, surface, &overrides).map(|s| (s.plastic_constant, s.source, s.body));
             assert_eq!(got, wanted, "{sphere} on {surface}");

@@ -37,13 +37,15 @@
 //! let removal = wall.removal(50e-6, &air).expect("in range").expect("it adheres");
 //! let sliding = removal.sliding.expect("the law has friction");
 //! assert!(removal.rolling.friction_velocity < sliding.friction_velocity);
-//! # Ok::<(), carom::SpecError>(())
+//! # Ok::<(), carom::LawError>(())
 //! ```
 
 use crate::impact::ImpactError;
+#[cfg(not(feature = "std"))]
+use crate::math::Plainly as _;
 use crate::math::cbrt;
 use crate::wall::WallLaw;
-use std::f64::consts::PI;
+use core::f64::consts::PI;
 
 /// Drag near the wall over Stokes' (O'Neill 1968).
 pub const DRAG_AT_WALL: f64 = 1.7009;

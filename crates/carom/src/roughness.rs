@@ -22,6 +22,8 @@
 pub mod fuller_tabor;
 
 use crate::math;
+#[cfg(not(feature = "std"))]
+use crate::math::Plainly as _;
 
 /// Which way C_R follows from a roughness.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

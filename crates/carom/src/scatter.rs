@@ -42,6 +42,8 @@
 //! ```
 
 use crate::impact::Vec3;
+#[cfg(not(feature = "std"))]
+use crate::math::Plainly as _;
 use crate::math::normal::{normal_density_on, normal_probability, normal_quantile_on};
 use crate::math::{self, BEST, Fma, angle_on, exp_on, sin_cos_on};
 use crate::vector::{cross, dot, norm};

@@ -7,10 +7,23 @@
 mod parse;
 
 pub use parse::UnitError;
-use serde::de::{self, Deserializer, Visitor};
 
 /// Exponents of metre, kilogram, second and kelvin. Angles count as pure numbers.
 pub type Dimension = [i8; 4];
+
+/// A quantity of one dimension, in SI units.
+pub trait Quantity: core::str::FromStr<Err = UnitError> + Copy {
+    /// What it is, in a word.
+    const WHAT: &'static str;
+    /// The SI unit, empty for a pure number.
+    const SI: &'static str;
+    /// A text that states one.
+    const EXAMPLE: &'static str;
+    /// From a number in SI units.
+    fn from_si(value: f64) -> Self;
+    /// The number in SI units.
+    fn si(self) -> f64;
+}
 
 macro_rules! quantities {
     ($($(#[$doc:meta])* $name:ident, $what:literal, $dim:expr, $si:literal, $example:literal;)*) => {$(
@@ -25,35 +38,42 @@ macro_rules! quantities {
             pub const SI: &'static str = $si;
         }
 
-        impl std::str::FromStr for $name {
+        impl Quantity for $name {
+            const WHAT: &'static str = $what;
+            const SI: &'static str = $si;
+            const EXAMPLE: &'static str = $example;
+            fn from_si(value: f64) -> Self {
+                Self(value)
+            }
+            fn si(self) -> f64 {
+                self.0
+            }
+        }
+
+        impl From<$name> for f64 {
+            fn from(quantity: $name) -> Self {
+                quantity.0
+            }
+        }
+
+        impl core::str::FromStr for $name {
             type Err = UnitError;
             fn from_str(text: &str) -> Result<Self, UnitError> {
                 parse::parse(text, &parse::Wanted { what: $what, dimension: $dim, si: $si, example: $example }).map($name)
             }
         }
 
+        #[cfg(feature = "serde")]
         impl serde::Serialize for $name {
             fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
                 serializer.serialize_f64(self.0)
             }
         }
 
-        impl<'de> de::Deserialize<'de> for $name {
-            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-                struct Text;
-                impl Visitor<'_> for Text {
-                    type Value = $name;
-                    fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-                        write!(f, "{} {} such as \"{}\", or a number in {}", parse::article($what), $what, $example, if $si.is_empty() { "no unit" } else { $si })
-                    }
-                    fn visit_f64<E: de::Error>(self, v: f64) -> Result<$name, E> {
-                        if v.is_finite() { Ok($name(v)) } else { Err(E::custom(format!("{v} is not a finite {}", $what))) }
-                    }
-                    fn visit_i64<E: de::Error>(self, v: i64) -> Result<$name, E> { Ok($name(v as f64)) }
-                    fn visit_u64<E: de::Error>(self, v: u64) -> Result<$name, E> { Ok($name(v as f64)) }
-                    fn visit_str<E: de::Error>(self, v: &str) -> Result<$name, E> { v.parse().map_err(E::custom) }
-                }
-                deserializer.deserialize_any(Text)
+        #[cfg(feature = "serde")]
+        impl<'de> serde::Deserialize<'de> for $name {
+            fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                deserializer.deserialize_any(serde_form::Form(core::marker::PhantomData))
             }
         }
     )*};
@@ -90,12 +110,46 @@ quantities! {
     MassFlow, "mass flow", [0, 1, -1, 0], "kg/s", "1 g/s";
     /// The damping coefficients C_A and C_H, s/m.
     InverseSpeed, "damping coefficient", [-1, 0, 1, 0], "s/m", "1.3 s/m";
+    /// An energy, J.
+    Energy, "energy", [2, 1, -2, 0], "J", "1e-15 J";
     /// A frequency, 1/s.
     Frequency, "frequency", [0, 0, -1, 0], "1/s", "100 Hz";
     /// Turbulent kinetic energy per mass, m²/s².
     SpecificEnergy, "specific energy", [2, 0, -2, 0], "m2/s2", "0.1 m2/s2";
     /// A pure number.
     Number, "number", [0, 0, 0, 0], "", "0.8";
+}
+
+/// A quantity in a serde format: a text with a unit, or a number.
+#[cfg(feature = "serde")]
+mod serde_form {
+    use super::{Quantity, parse};
+    use core::fmt;
+    use core::marker::PhantomData;
+    use serde::de::{Error, Visitor};
+
+    pub(super) struct Form<Q>(pub PhantomData<Q>);
+
+    impl<Q: Quantity> Visitor<'_> for Form<Q> {
+        type Value = Q;
+        fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+            let unit = if Q::SI.is_empty() { "no unit" } else { Q::SI };
+            let article = parse::article(Q::WHAT);
+            write!(f, "{article} {} such as \"{}\", or a number in {unit}", Q::WHAT, Q::EXAMPLE)
+        }
+        fn visit_f64<E: Error>(self, v: f64) -> Result<Q, E> {
+            if v.is_finite() { Ok(Q::from_si(v)) } else { Err(E::custom(format!("{v} is not a finite {}", Q::WHAT))) }
+        }
+        fn visit_i64<E: Error>(self, v: i64) -> Result<Q, E> {
+            Ok(Q::from_si(v as f64))
+        }
+        fn visit_u64<E: Error>(self, v: u64) -> Result<Q, E> {
+            Ok(Q::from_si(v as f64))
+        }
+        fn visit_str<E: Error>(self, v: &str) -> Result<Q, E> {
+            v.parse().map_err(E::custom)
+        }
+    }
 }
 
 #[cfg(test)]

@@ -11,6 +11,8 @@ use crate::scatter::Scatter;
 use crate::tangential::Tangential;
 use crate::tangential::micro_slip::Shape;
 use crate::validity::Validity;
+use alloc::boxed::Box;
+use alloc::vec::Vec;
 
 mod above_yield;
 mod figures;
@@ -68,7 +70,7 @@ pub(crate) enum Along {
         stiffness_ratio: f64,
     },
     Curve(Curve),
-    #[expect(dead_code, reason = "the text form asks for friction until its builder does not")]
+    /// Enough for impacts without slip.
     NotGiven,
 }
 
@@ -166,7 +168,7 @@ impl WallLaw {
     /// let out = wall.impact(&Impact::new(70e-6, [1.0, -1.0, 0.0], [0.0, 1.0, 0.0])).expect("it approaches");
     /// assert_eq!(out.fate, Fate::Rebound);
     /// assert!((out.velocity[1] - 0.9728).abs() < 1e-3);
-    /// # Ok::<(), carom::SpecError>(())
+    /// # Ok::<(), carom::LawError>(())
     /// ```
     #[inline]
     pub fn impact(&self, impact: &Impact) -> Result<Outcome, ImpactError> {

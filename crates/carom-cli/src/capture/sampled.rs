@@ -6,10 +6,10 @@ use crate::grid::{Grid, Swept};
 use crate::law::Law;
 use crate::motion::ImpactArgs;
 use crate::output::{self, Files};
-use crate::samples::{Band, Sampling};
+use crate::samples::note;
 use crate::study::{Figure, NOTHING, Study, band_columns, drawn, fits, is_drawn};
 use crate::text::{Lines, percent, quantity, scaled};
-use crate::uncertain::Given;
+use carom::study::{Band, Given, Sampling};
 use carom_report::plot::Reference;
 use carom_report::{Axis, Column, Plot, Table};
 
@@ -96,14 +96,14 @@ pub fn one(args: &Args, case: &ImpactArgs, sampling: &Sampling) -> Result<(), Fa
     if never > 0.0 {
         lines.add("never rebound", percent(never));
     }
-    lines.add("from", sampling.note(std::iter::once(case)));
+    lines.add("from", note(sampling, std::iter::once(case)));
     output::print(&format!("{diameter} {}\n\n{lines}", velocities.law.description()))
 }
 
 /// Over the diameter, the capture velocity's band; over the speed, the probability of sticking head-on.
 pub fn curves(grid: &Grid, files: &Files, sampling: &Sampling) -> Result<(), Failure> {
     fits(grid, sampling)?;
-    say(&sampling.note(grid.curves.iter().map(|c| &c.args)));
+    say(&note(sampling, grid.curves.iter().map(|c| &c.args)));
     if grid.quantity() == Swept::Speed {
         over_speed(grid, files, sampling)
     } else {

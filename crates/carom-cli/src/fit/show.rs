@@ -57,7 +57,7 @@ fn estimates(fit: &Fit) -> Result<Table, Failure> {
 }
 
 fn correlations(fit: &Fit) -> Result<Table, Failure> {
-    let symbols: Vec<&str> = fit.parameters.iter().map(|p| p.parameter.symbol()).collect();
+    let symbols: Vec<&str> = fit.parameters.iter().map(|p| p.parameter.info().symbol).collect();
     let mut columns = vec![Column::text("correlation", symbols.iter().copied())];
     for (n, symbol) in symbols.iter().enumerate().take(symbols.len() - 1) {
         let known = |m: usize| fit.parameters[m].standard_error.and(fit.parameters[n].standard_error).is_some();

@@ -73,7 +73,7 @@ fn text(found: &[Surveyed]) -> Result<String, Failure> {
             let range = |(l, h)| format!("{value} [{}, {}]", significant(l, 3), significant(h, 3));
             p.interval.map_or(format!("{value} [-]"), range)
         };
-        columns.push(Column::text(format!("{}{unit}", parameter.parameter.symbol()), of(&cell)));
+        columns.push(Column::text(format!("{}{unit}", parameter.parameter.info().symbol), of(&cell)));
     }
     let mut text = Table::new(columns)?.to_text();
     text += "\nIn brackets: 95 % intervals.\n";

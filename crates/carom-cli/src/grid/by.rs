@@ -56,7 +56,7 @@ pub fn set(args: &mut ImpactArgs, key: &str, value: &str) -> Result<(), Failure>
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::uncertain::Given;
+    use carom::study::Given;
 
     #[test]
     fn curves_vary_any_flag() {

@@ -1,10 +1,10 @@
 //! The figures of the report.
 
 use super::tally::{ANGLE, Ends, Impacts, RESTITUTION, SizeBin};
+use carom::study::wilson;
 use carom_report::plot::Legend;
 use carom_report::{Axis, Color, HeatMap, Plot, Series};
 use carom_track::Summary;
-use carom_track::deposition::wilson;
 
 /// Size of a figure of which there are several, CSS pixels.
 const SIZE: (u32, u32) = (900, 380);

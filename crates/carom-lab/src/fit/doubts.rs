@@ -1,11 +1,11 @@
 //! What a reader of a fit should mind, with what would help.
 
 use super::bootstrap::Bootstrap;
-use super::parameter::Parameter;
 use super::problem::Problem;
 use super::solve::Minimum;
 use super::uncertainty::{Goodness, Uncertainty};
 use crate::experiment::Quantity;
+use carom::spec::Key;
 use carom_report::significant;
 
 /// Correlations beyond this are named.
@@ -39,7 +39,7 @@ pub(super) fn doubts(
         ));
     }
     if !known.entangled.is_empty() {
-        let names: Vec<Parameter> = known.entangled.iter().map(|n| name(*n)).collect();
+        let names: Vec<Key> = known.entangled.iter().map(|n| name(*n)).collect();
         let listed = names.iter().map(|p| p.name()).collect::<Vec<_>>().join(" and ");
         said.push(format!("only a combination of {listed} is known from these data; {}", parts(&names)));
     }
@@ -122,8 +122,8 @@ fn fates(problem: &Problem<'_>, model: &[f64]) -> Vec<String> {
 }
 
 /// What would tell parameters apart.
-fn parts(of: &[Parameter]) -> &'static str {
-    use Parameter as P;
+fn parts(of: &[Key]) -> &'static str {
+    use Key as P;
     let has = |p: P| of.contains(&p);
     if has(P::RoughnessFactor) && has(P::WorkOfAdhesion) {
         "they act as the one product C_R w^(2/3): give one of them"
@@ -139,10 +139,10 @@ fn parts(of: &[Parameter]) -> &'static str {
 }
 
 /// What would give a parameter something to act on.
-fn wakes(parameter: Parameter) -> &'static str {
+fn wakes(parameter: Key) -> &'static str {
     match parameter {
-        Parameter::PlasticConstant => "add impacts faster than the yield velocity",
-        Parameter::Friction => "add impacts closer to the surface, where the sphere slides to the end",
+        Key::PlasticConstant => "add impacts faster than the yield velocity",
+        Key::Friction => "add impacts closer to the surface, where the sphere slides to the end",
         _ => "add impacts that rebound at other speeds, or leave it out",
     }
 }

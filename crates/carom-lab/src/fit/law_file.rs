@@ -4,7 +4,6 @@ use super::{Estimate, Fit};
 use crate::error::LabError;
 use carom::material::Library;
 use carom::spec::parse_named_law;
-use carom::units::Number;
 use carom_report::significant;
 use std::fmt::Write as _;
 
@@ -44,8 +43,7 @@ impl Fit {
             say("Friction was not measured: add friction = ... for oblique impacts.");
         }
         text += &self.law.to_toml(name).map_err(LabError::Fit)?;
-        let mut again = parse_named_law(&text, name).map_err(LabError::Fit)?;
-        again.friction = again.friction.or(Some(Number(0.0).into()));
+        let again = parse_named_law(&text, name).map_err(LabError::Fit)?;
         again.compile(library).map_err(LabError::Fit)?;
         Ok(text)
     }

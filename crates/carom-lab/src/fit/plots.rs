@@ -1,5 +1,6 @@
 //! A fit as a reader sees it: the curve with the data, and what is left between them.
 
+use super::parameter::Parameter as _;
 use super::{Fit, Residual, bootstrap::quantile};
 use crate::compare::meet;
 use crate::error::LabError;

@@ -7,7 +7,7 @@ use crate::error::LabError;
 use crate::experiment::Quantity;
 use carom::material::{Library, MaterialRef};
 use carom::spec::LawSpec;
-use carom::{SpecError, WallLaw};
+use carom::{SpecError, WallLaw, error::ErrorKind, spec::Key};
 use nalgebra::DMatrix;
 use std::ops::RangeInclusive;
 
@@ -15,14 +15,14 @@ use std::ops::RangeInclusive;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Free {
     /// Which.
-    pub parameter: Parameter,
+    pub parameter: Key,
     /// Where it may lie.
     pub bounds: RangeInclusive<f64>,
 }
 
 impl Free {
     /// A parameter within its natural bounds.
-    pub fn new(parameter: Parameter) -> Self {
+    pub fn new(parameter: Key) -> Self {
         Self { parameter, bounds: parameter.natural_bounds() }
     }
 }
@@ -75,7 +75,7 @@ impl<'a> Problem<'a> {
         }
         let inside = |f: &Free| f.parameter.start(law, library).clamp(*f.bounds.start(), *f.bounds.end());
         let starts: Vec<f64> = free.iter().map(inside).collect();
-        let scales = free.iter().zip(&starts).map(|(f, s)| f.parameter.scale(*s)).collect();
+        let scales = free.iter().zip(&starts).map(|(f, s)| super::parameter::scale(f.parameter, *s)).collect();
         let bare = bare(law, library).map_err(LabError::Fit)?;
         let problem = Self { law, bare, library, free: free.to_vec(), starts, scales, observations, has_sigma };
         problem.check(data)?;
@@ -92,18 +92,25 @@ impl<'a> Problem<'a> {
         let tangential = data.points.iter().any(|p| p.tangential_restitution.is_some());
         for (n, free) in self.free.iter().enumerate() {
             let name = free.parameter;
+            if name.info().search.is_none() {
+                return refuse(format!("{name} is not fitted"), format!("known are {}", names()));
+            }
             if self.free[..n].iter().any(|f| f.parameter == free.parameter) {
                 return refuse(format!("{name} is free twice"), "name it once".into());
             }
-            if name == Parameter::Friction && !tangential {
+            if name == Key::Friction && !tangential {
                 return refuse(
                     "friction does not act on the normal restitution".into(),
                     "add a column tangential_restitution (and angle), or leave friction out".into(),
                 );
             }
             let with_starts = self.law_at(&self.starts);
-            if !name.acts(&with_starts, self.library).map_err(LabError::Fit)? {
-                return refuse(format!("{name} changes nothing in this law"), instead(name).into());
+            let acts = match name.acts(&with_starts, self.library) {
+                Err(e) if e.kind() == ErrorKind::IdleKey && e.key() == Some(name.name()) => false,
+                other => other.map_err(LabError::Fit)?,
+            };
+            if !acts {
+                return refuse(format!("{name} changes nothing in this law"), super::parameter::readers(name));
             }
         }
         let (wanted, got) = (self.free.len() + 1, self.observations.len());
@@ -230,13 +237,6 @@ fn refused(o: &Observation, error: carom::ImpactError) -> LabError {
     LabError::Fit(SpecError::new(format!("line {}: {error}", o.point.line)))
 }
 
-/// Where a parameter does act.
-fn instead(parameter: Parameter) -> &'static str {
-    match parameter {
-        Parameter::AdhesionDamping | Parameter::HertzDamping => "ea, eap and resolved have damping; or leave it out",
-        Parameter::RoughnessFactor => "it acts in ea, eap and resolved, where something adheres; or leave it out",
-        Parameter::WorkOfAdhesion => "it acts where something adheres, in ea, eap and thornton-ning; or leave it out",
-        Parameter::PlasticConstant => "it acts in eap, or beside plastic-kadomtsev or plastic-bons; or leave it out",
-        Parameter::Friction => "it acts in rolling, walton and micro-slip; or leave it out",
-    }
+fn names() -> String {
+    super::parameter::parameters().map(Key::name).collect::<Vec<_>>().join(", ")
 }

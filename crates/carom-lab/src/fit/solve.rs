@@ -54,7 +54,7 @@ fn same(problem: &Problem<'_>, a: &Minimum, b: &Minimum) -> bool {
 fn starts(problem: &Problem<'_>, measured: &[f64]) -> Vec<Vec<f64>> {
     let mut grid: Vec<Vec<f64>> = vec![Vec::new()];
     for (n, free) in problem.free.iter().enumerate() {
-        let values = free.parameter.grid(problem.starts[n]);
+        let values = super::parameter::grid(free.parameter, problem.starts[n]);
         let longer = |g: &Vec<f64>| {
             let inside = values.iter().map(|v| problem.inside(n, *v));
             inside.map(|v| g.iter().copied().chain([v]).collect::<Vec<_>>()).collect::<Vec<_>>()

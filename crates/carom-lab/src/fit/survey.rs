@@ -2,7 +2,7 @@
 //! <https://doi.org/10.1016/j.jaerosci.2007.03.006>) shows it. The paper fits the smallest sphere of a pair of materials and keeps the
 //! result for the larger ones; here all diameters of a pair are fitted together.
 
-use super::{Data, Fit, Free, Measurement, Options, Parameter, fit};
+use super::{Data, Fit, Free, Key, Measurement, Options, fit};
 use crate::error::LabError;
 use crate::experiment::{Experiment, Over, Panel, Quantity};
 use crate::points;
@@ -17,7 +17,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// What a survey fits where nothing else is said.
-pub const FREE: [Parameter; 3] = [Parameter::AdhesionDamping, Parameter::HertzDamping, Parameter::RoughnessFactor];
+pub const FREE: [Key; 3] = [Key::AdhesionDamping, Key::HertzDamping, Key::RoughnessFactor];
 
 /// A pair of materials with its data.
 #[derive(Clone, Debug)]
@@ -143,12 +143,11 @@ pub fn survey(
 ) -> Result<Vec<Surveyed>, LabError> {
     let mut found = Vec::with_capacity(subjects.len());
     for subject in subjects {
-        let named = |error: SpecError| {
-            let message = format!("{}: {}", subject.name, error.message);
-            LabError::Fit(SpecError { message, span: None, help: error.help })
-        };
+        let named = |error: SpecError| LabError::Fit(error.within(&subject.name));
         let mut law = subject.law.clone();
-        law.friction = law.friction.or(Some(Number(0.0).into()));
+        if law.friction.is_none() && law.reads(Key::Friction) {
+            law.friction = Some(Number(0.0).into());
+        }
         let fit = fit(&law, free, &subject.data, library, options).map_err(|e| match e {
             LabError::Fit(error) => named(error),
             other => other,
@@ -203,8 +202,8 @@ pub fn plot(found: &[Surveyed]) -> Plot {
     let along = Axis::scaled("Young's modulus of the surface", "GPa", 1e-9).log();
     let mut plot = Plot::new("Damping coefficients", along, Axis::new("damping coefficient", "s/m").log());
     let kinds = [
-        (Parameter::AdhesionDamping, "C_A, adhesion damping", Marker::Circle),
-        (Parameter::HertzDamping, "C_H, Hertzian damping", Marker::Square),
+        (Key::AdhesionDamping, "C_A, adhesion damping", Marker::Circle),
+        (Key::HertzDamping, "C_H, Hertzian damping", Marker::Square),
     ];
     for (parameter, label, marker) in kinds {
         let estimates: Vec<_> = found

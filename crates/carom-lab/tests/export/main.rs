@@ -27,7 +27,12 @@ fn laws() -> Vec<(&'static str, WallLaw)> {
         ),
         ("eap", copper("normal = \"eap\"\ntangential = \"walton\"\nwalton_beta = 0.4")),
         ("bons", copper("normal = [\"adhesion-work\", \"plastic-bons\"]")),
-        ("hertz", copper("normal = [\"hertz-damping\"]\nhertz_damping = 0.01")),
+        (
+            "hertz",
+            law(
+                "sphere = \"copper\"\nsurface = \"glass\"\nfriction = 0.2\nnormal = [\"hertz-damping\"]\nhertz_damping = 0.01",
+            ),
+        ),
         ("tabor", law("normal = \"tabor\"\nyield_velocity = 0.1\nmeyer_index = 2.3\nfriction = 0.3")),
         ("grant-tabakoff", law(GRANT_TABAKOFF)),
         ("backwards", law("normal = \"constant\"\nrestitution = 0.5\ntangential_restitution = -0.4")),

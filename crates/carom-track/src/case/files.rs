@@ -21,8 +21,8 @@ impl Fingerprint {
     pub fn with_material(self, material: &Material) -> Self {
         let named = self.with(material.name.as_bytes()).with(&[0]);
         PropertyKind::ALL
-            .into_iter()
-            .filter_map(|kind| Some((kind, material.value(kind)?)))
+            .iter()
+            .filter_map(|kind| Some((kind, material.value(*kind)?)))
             .fold(named, |sum, (kind, value)| sum.with(kind.key().as_bytes()).with(&value.to_bits().to_le_bytes()))
     }
 

@@ -3,12 +3,11 @@
 use super::removal::RemovalText;
 use crate::tables::TableFormat;
 use carom::material::MaterialRef;
-use carom::spec::{At, CurveSpec, LawSpec};
+use carom::spec::{At, CurveSpec};
 use carom::units::{
     Acceleration, AngularVelocity, Density, Frequency, Length, Mass, MassFlow, Number, Speed, Temperature, Time,
     Viscosity,
 };
-use std::collections::BTreeMap;
 
 /// A case file.
 #[derive(Debug, serde::Deserialize)]
@@ -22,8 +21,9 @@ pub(super) struct CaseText {
     pub forces: ForcesText,
     #[serde(default)]
     pub wall: Vec<At<WallText>>,
-    #[serde(default)]
-    pub law: BTreeMap<String, At<LawSpec>>,
+    /// Read apart, by [`carom::spec::parse_laws`], which says more of its mistakes.
+    #[serde(default, rename = "law")]
+    _law: serde::de::IgnoredAny,
     #[serde(default)]
     pub injection: Vec<At<InjectionText>>,
     #[serde(default)]
@@ -347,7 +347,12 @@ mod forms {
                 fn visit_str<E: de::Error>(self, v: &str) -> Result<RowsText, E> {
                     match v {
                         "csv" => Ok(RowsText(Some(TableFormat::Csv))),
-                        "parquet" => Ok(RowsText(Some(TableFormat::Parquet))),
+                        "parquet" if carom_table::Format::Parquet.is_built() => {
+                            Ok(RowsText(Some(TableFormat::Parquet)))
+                        }
+                        "parquet" => Err(E::custom(
+                            "this build writes no Parquet; build it with the feature `parquet`, or write \"csv\"",
+                        )),
                         _ => {
                             let near = did_you_mean(v, ["csv", "parquet"]).map_or(String::new(), |n| format!("{n} "));
                             Err(E::custom(format!(

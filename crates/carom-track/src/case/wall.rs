@@ -155,6 +155,13 @@ fn reflect(at: &At<WallText>, library: &Library) -> Result<Behavior, SpecError> 
     Ok(Behavior::Law(vec![spec.compile(library).map_err(|e| e.at(at.span.clone()))?]))
 }
 
+/// Spheres of a run slip along their walls.
+fn checked(spec: &LawSpec, library: &Library) -> Result<carom::WallLaw, SpecError> {
+    let law = spec.compile(library)?;
+    law.require_friction()?;
+    Ok(law)
+}
+
 /// One compiled law for all, or one for each injection's material where the law names no sphere.
 fn compile(
     text: &WallText,
@@ -179,16 +186,16 @@ fn compile(
                     .at(sphere.span.clone()));
             }
         }
-        return Ok(vec![spec.compile(library).map_err(place)?]);
+        return Ok(vec![checked(spec, library).map_err(place)?]);
     }
     if spec.surface.is_none() || injections.iter().all(|i| i.material.is_none()) {
-        return Ok(vec![spec.compile(library).map_err(place)?]);
+        return Ok(vec![checked(spec, library).map_err(place)?]);
     }
     injections
         .iter()
         .map(|i| {
             let sphere = i.material.clone().map(At::from);
-            LawSpec { sphere, ..spec.clone() }.compile(library).map_err(place)
+            checked(&LawSpec { sphere, ..spec.clone() }, library).map_err(place)
         })
         .collect()
 }

@@ -1,12 +1,13 @@
 //! Materials by name and alias.
 
-use super::property::Fields;
-use super::{Material, SpecError};
-use crate::error::did_you_mean;
-use std::collections::BTreeMap;
-use std::sync::LazyLock;
+use super::Material;
+use crate::error::{LawError, Problem, nearest};
+use alloc::borrow::ToOwned;
+use alloc::collections::BTreeMap;
+use alloc::string::String;
 
 /// The embedded files of the crate's `data/materials`; a test keeps this list complete.
+#[cfg(feature = "toml")]
 pub(super) const EMBEDDED: &[(&str, &str)] = &[
     ("glasses.toml", include_str!("../../data/materials/glasses.toml")),
     ("kim-dunn-2007.toml", include_str!("../../data/materials/kim-dunn-2007.toml")),
@@ -24,13 +25,6 @@ pub struct Library {
     unread: Option<String>,
 }
 
-#[derive(serde::Deserialize)]
-#[serde(deny_unknown_fields)]
-struct File {
-    #[serde(default)]
-    material: BTreeMap<String, toml::Spanned<Fields>>,
-}
-
 fn key(name: &str) -> String {
     name.trim().to_lowercase().replace(['_', ' '], "-")
 }
@@ -39,13 +33,15 @@ impl Library {
     /// The materials that come with carom, each value with its source (see `docs/materials.md`), read once per process.
     ///
     /// Clone it to add materials to it.
+    #[cfg(feature = "toml")]
     pub fn builtin() -> &'static Self {
-        static BUILTIN: LazyLock<Library> = LazyLock::new(|| Library::embedded(EMBEDDED));
+        static BUILTIN: std::sync::LazyLock<Library> = std::sync::LazyLock::new(|| Library::embedded(EMBEDDED));
         &BUILTIN
     }
 
     /// A library of embedded files. One that cannot be read is not passed over: [`Library::get`] reports it for every
     /// name that is missing.
+    #[cfg(feature = "toml")]
     pub(super) fn embedded(files: &[(&str, &str)]) -> Self {
         let mut library = Self::default();
         for (name, text) in files {
@@ -60,15 +56,23 @@ impl Library {
     ///
     /// # Errors
     /// What is wrong in the text, with its place.
-    pub fn extend_from_toml(&mut self, text: &str) -> Result<(), SpecError> {
-        let file: File = toml::from_str(text)?;
-        for (name, fields) in file.material {
-            let span = fields.span();
-            let material = Material::from_fields(&name, fields.into_inner()).map_err(|mut e| {
-                e.message = format!("material {name}: {}", e.message);
-                e.at(Some(span))
-            })?;
-            self.insert(material);
+    #[cfg(feature = "toml")]
+    pub fn extend_from_toml(&mut self, text: &str) -> Result<(), LawError> {
+        use crate::spec::{Value, document};
+        for (key, at) in document(text)? {
+            if key.value != "material" {
+                let unknown = Problem::UnknownKey { what: "key", key: key.value, known: vec!["material"] };
+                return Err(LawError::from(unknown).at(key.span));
+            }
+            let wanted = "tables [material.NAME]";
+            let Value::Table(materials) = &at.value else { return Err(at.value.unfit("material", wanted).at(at.span)) };
+            for (name, at) in materials {
+                let Value::Table(entries) = &at.value else {
+                    return Err(at.value.unfit(&name.value, wanted).at(at.span.clone()));
+                };
+                let material = Material::from_entries(&name.value, entries);
+                self.insert(material.map_err(|e| e.at(at.span.clone()))?);
+            }
         }
         Ok(())
     }
@@ -87,18 +91,16 @@ impl Library {
     ///
     /// # Errors
     /// An unknown name, with the nearest known one.
-    pub fn get(&self, name: &str) -> Result<&Material, SpecError> {
+    pub fn get(&self, name: &str) -> Result<&Material, LawError> {
         let wanted = key(name);
         let canonical = self.aliases.get(&wanted).unwrap_or(&wanted);
         self.materials.get(canonical).ok_or_else(|| {
             if let Some(unread) = &self.unread {
-                return SpecError::new(format!("the materials that come with carom cannot be read: {unread}"));
+                return LawError::new(format!("the materials that come with carom cannot be read: {unread}"));
             }
             let known = self.materials.keys().chain(self.aliases.keys()).map(String::as_str);
-            let near = did_you_mean(&wanted, known).map_or(String::new(), |s| format!("{s} "));
-            SpecError::new(format!("unknown material '{name}'")).help(format!(
-                "{near}`carom materials` lists all; properties may be given in place as rho=...,E=...,nu=..."
-            ))
+            let near = nearest(&wanted, known).map(str::to_owned);
+            Problem::UnknownMaterial { name: name.to_owned(), near }.into()
         })
     }
 

@@ -1,103 +1,128 @@
-//! One property of a material: value, range, source, alternatives; and the ranges each may have.
+//! The registry of material properties, and one property: value, range, source, alternatives.
 
-use crate::error::SpecError;
-use crate::units::{Density, Number, Pressure, SurfaceEnergy};
-use serde::de::{Deserialize, Deserializer, MapAccess, Visitor, value};
-use std::fmt;
-use std::marker::PhantomData;
-use std::ops::Range;
+use super::Material;
+use crate::error::{LawError, Problem};
+use crate::spec::{Range, out_of_range};
+use crate::units::{Density, Number, Pressure, Quantity, SurfaceEnergy, UnitError};
+use alloc::string::String;
+use alloc::vec::Vec;
 
-/// The properties a material may have.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PropertyKind {
+macro_rules! properties {
+    ($($(#[doc = $doc:literal])+ $variant:ident $field:ident $symbol:literal: $quantity:ty { $noun:literal, $range:expr })*) => {
+        /// The properties a material may have.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[non_exhaustive]
+        pub enum PropertyKind { $($(#[doc = $doc])+ $variant),* }
+
+        impl PropertyKind {
+            /// All of them, in the order of the documentation.
+            pub const ALL: [Self; [$(stringify!($variant)),*].len()] = [$(Self::$variant),*];
+            /// Their keys and symbols.
+            pub(crate) const NAMES: &'static [&'static str] = &[$(stringify!($field), $symbol),*];
+            /// Their symbols.
+            pub(crate) const SYMBOLS: &'static [&'static str] = &[$($symbol),*];
+
+            /// The key in a material file.
+            pub fn key(self) -> &'static str {
+                match self { $(Self::$variant => stringify!($field)),* }
+            }
+
+            /// The short key of an inline material: `rho`, `E`, `nu`, `gamma`, `sigma`, `H`, `sigma_t`.
+            pub fn symbol(self) -> &'static str {
+                match self { $(Self::$variant => $symbol),* }
+            }
+
+            /// Its name in words.
+            pub fn noun(self) -> &'static str {
+                match self { $(Self::$variant => $noun),* }
+            }
+
+            /// The SI unit, empty for a number.
+            pub fn unit(self) -> &'static str {
+                match self { $(Self::$variant => <$quantity>::SI),* }
+            }
+
+            /// What a value may be, SI units.
+            pub fn range(self) -> Range {
+                match self { $(Self::$variant => $range),* }
+            }
+
+            /// Reads a value with its unit.
+            pub(crate) fn parse(self, text: &str) -> Result<f64, UnitError> {
+                Ok(match self { $(Self::$variant => text.parse::<$quantity>()?.si()),* })
+            }
+
+            /// The value in SI units.
+            pub(super) fn read(self, value: &crate::spec::Value) -> Result<f64, LawError> {
+                Ok(match self { $(Self::$variant => value.quantity::<$quantity>(self.key())?.si()),* })
+            }
+        }
+
+        impl Material {
+            /// The property's nominal value in SI units, if known.
+            pub fn value(&self, kind: PropertyKind) -> Option<f64> {
+                match kind { $(PropertyKind::$variant => self.$field),* }
+            }
+
+            pub(super) fn slot(&mut self, kind: PropertyKind) -> &mut Option<f64> {
+                match kind { $(PropertyKind::$variant => &mut self.$field),* }
+            }
+        }
+    };
+}
+
+properties! {
     /// Density, kg/m³.
-    Density,
+    Density density "rho": Density {
+        "density", Range::within(50.0, 3e4, "a solid's density lies between 50 and 30000 kg/m3; a bare number is in kg/m3, 2.5 g/cm3 is written with its unit")
+    }
     /// Young's modulus, Pa.
-    YoungModulus,
+    YoungModulus young_modulus "E": Pressure {
+        "Young's modulus", Range::within(1e6, 2e12, "a Young's modulus lies between 1 MPa (soft rubber) and 2 TPa (diamond has 1.1); a bare number is in Pa, 70 GPa is written with its unit")
+    }
     /// Poisson's ratio.
-    PoissonRatio,
+    PoissonRatio poisson_ratio "nu": Number {
+        "Poisson's ratio", Range::between(-1.0, 0.5, "Poisson's ratio of a compressible solid lies between -1 and 0.5")
+    }
     /// Surface free energy, J/m².
-    SurfaceEnergy,
+    SurfaceEnergy surface_energy "gamma": SurfaceEnergy {
+        "surface energy", Range::within(0.0, 20.0, "a surface energy lies between 0 and 20 J/m2; a bare number is in J/m2, 40 mJ/m2 is written with its unit")
+    }
     /// Yield strength of a body that flows before it breaks, Pa.
-    YieldStrength,
+    YieldStrength yield_strength "sigma": Pressure {
+        "yield strength", Range::above(0.0, "a positive value is wanted")
+    }
     /// Indentation hardness: mean pressure over the projected area of an indent, Pa.
-    Hardness,
+    Hardness hardness "H": Pressure {
+        "hardness", Range::above(0.0, "a positive value is wanted")
+    }
     /// Stress at which a body that does not flow breaks in tension or bending, Pa. No law reads it.
-    TensileStrength,
+    TensileStrength tensile_strength "sigma_t": Pressure {
+        "tensile strength", Range::above(0.0, "a positive value is wanted")
+    }
 }
 
 impl PropertyKind {
-    /// All of them, in the order in which they are listed.
-    pub const ALL: [Self; 7] = [
-        Self::Density,
-        Self::YoungModulus,
-        Self::PoissonRatio,
-        Self::SurfaceEnergy,
-        Self::YieldStrength,
-        Self::Hardness,
-        Self::TensileStrength,
-    ];
-
-    /// The key in a material file.
-    pub fn key(self) -> &'static str {
-        match self {
-            Self::Density => "density",
-            Self::YoungModulus => "young_modulus",
-            Self::PoissonRatio => "poisson_ratio",
-            Self::SurfaceEnergy => "surface_energy",
-            Self::YieldStrength => "yield_strength",
-            Self::Hardness => "hardness",
-            Self::TensileStrength => "tensile_strength",
-        }
+    /// The property of that key or symbol.
+    pub fn by_name(name: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|k| k.key() == name || k.symbol() == name)
     }
 
-    /// The short key of an inline material.
-    pub fn symbol(self) -> &'static str {
-        match self {
-            Self::Density => "rho",
-            Self::YoungModulus => "E",
-            Self::PoissonRatio => "nu",
-            Self::SurfaceEnergy => "gamma",
-            Self::YieldStrength => "sigma",
-            Self::Hardness => "H",
-            Self::TensileStrength => "sigma_t",
-        }
-    }
-
-    /// The SI unit, empty for a number.
-    pub fn unit(self) -> &'static str {
-        match self {
-            Self::Density => Density::SI,
-            Self::PoissonRatio => "",
-            Self::SurfaceEnergy => SurfaceEnergy::SI,
-            _ => Pressure::SI,
-        }
+    /// A value within its range.
+    pub(super) fn check_value(self, value: f64) -> Result<(), LawError> {
+        let range = self.range();
+        if range.contains(value) { Ok(()) } else { Err(out_of_range(self.key(), value, self.unit(), &range)) }
     }
 
     /// Refuses impossible values: the value itself and both ends of its range.
-    pub(super) fn check(self, property: &Property) -> Result<(), SpecError> {
-        let numbers = [Some(property.value), property.low, property.high];
-        for v in numbers.into_iter().flatten() {
-            let (fine, right) = match self {
-                Self::SurfaceEnergy => (v >= 0.0, "zero or more is wanted"),
-                Self::PoissonRatio => {
-                    (v > -1.0 && v < 0.5, "Poisson's ratio of a compressible solid lies between -1 and 0.5")
-                }
-                _ => (v > 0.0, "a positive value is wanted"),
-            };
-            if !(fine && v.is_finite()) {
-                let unit = if self.unit().is_empty() { String::new() } else { format!(" {}", self.unit()) };
-                return Err(SpecError::new(format!("{} = {v}{unit} is out of range", self.key())).help(right));
-            }
+    pub(super) fn check(self, property: &Property) -> Result<(), LawError> {
+        for v in [Some(property.value), property.low, property.high].into_iter().flatten() {
+            self.check_value(v)?;
         }
-        let (low, high) = (property.low.unwrap_or(property.value), property.high.unwrap_or(property.value));
-        if low > property.value || high < property.value {
-            return Err(SpecError::new(format!(
-                "{}: {} is outside its range {low} to {high}",
-                self.key(),
-                property.value
-            ))
-            .help("the nominal value lies between both ends"));
+        let (value, low, high) =
+            (property.value, property.low.unwrap_or(property.value), property.high.unwrap_or(property.value));
+        if low > value || high < value {
+            return Err(Problem::OutsideItsRange { key: self.key(), value, low, high }.into());
         }
         Ok(())
     }
@@ -135,185 +160,4 @@ pub struct Alternative {
     pub source: Option<String>,
     /// A remark.
     pub note: Option<String>,
-}
-
-/// A property as written: a bare quantity or a table.
-#[derive(Debug)]
-pub(super) struct Written<Q> {
-    value: Q,
-    low: Option<Q>,
-    high: Option<Q>,
-    source: Option<String>,
-    note: Option<String>,
-    printed: Option<String>,
-    alternatives: Vec<WrittenAlternative<Q>>,
-    pub(super) span: Option<Range<usize>>,
-}
-
-#[derive(Debug, serde::Deserialize)]
-#[serde(deny_unknown_fields)]
-struct WrittenAlternative<Q> {
-    value: Option<Q>,
-    low: Option<Q>,
-    high: Option<Q>,
-    source: Option<String>,
-    note: Option<String>,
-}
-
-#[derive(serde::Deserialize)]
-#[serde(deny_unknown_fields)]
-struct WrittenTable<Q> {
-    value: toml::Spanned<Q>,
-    low: Option<Q>,
-    high: Option<Q>,
-    source: Option<String>,
-    note: Option<String>,
-    printed: Option<String>,
-    #[serde(default = "Vec::new")]
-    alternatives: Vec<WrittenAlternative<Q>>,
-}
-
-impl<Q> Written<Q> {
-    fn bare(value: Q) -> Self {
-        Self {
-            value,
-            low: None,
-            high: None,
-            source: None,
-            note: None,
-            printed: None,
-            alternatives: Vec::new(),
-            span: None,
-        }
-    }
-
-    pub(super) fn map<T>(self, f: impl Fn(Q) -> T) -> Written<T> {
-        let alternatives = self
-            .alternatives
-            .into_iter()
-            .map(|a| WrittenAlternative {
-                value: a.value.map(&f),
-                low: a.low.map(&f),
-                high: a.high.map(&f),
-                source: a.source,
-                note: a.note,
-            })
-            .collect();
-        Written {
-            value: f(self.value),
-            low: self.low.map(&f),
-            high: self.high.map(&f),
-            source: self.source,
-            note: self.note,
-            printed: self.printed,
-            alternatives,
-            span: self.span,
-        }
-    }
-}
-
-impl From<Written<f64>> for Property {
-    fn from(w: Written<f64>) -> Self {
-        let alternatives = w
-            .alternatives
-            .into_iter()
-            .map(|a| Alternative { value: a.value, low: a.low, high: a.high, source: a.source, note: a.note })
-            .collect();
-        Self {
-            value: w.value,
-            low: w.low,
-            high: w.high,
-            source: w.source,
-            note: w.note,
-            printed: w.printed,
-            alternatives,
-        }
-    }
-}
-
-impl<'de, Q: Deserialize<'de>> Deserialize<'de> for Written<Q> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct QuantityOrTable<Q>(PhantomData<Q>);
-        impl<'de, Q: Deserialize<'de>> Visitor<'de> for QuantityOrTable<Q> {
-            type Value = Written<Q>;
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a quantity, or a table { value, low, high, source, note }")
-            }
-            fn visit_str<E: serde::de::Error>(self, v: &str) -> Result<Self::Value, E> {
-                Q::deserialize(value::StrDeserializer::new(v)).map(Written::bare)
-            }
-            fn visit_f64<E: serde::de::Error>(self, v: f64) -> Result<Self::Value, E> {
-                Q::deserialize(value::F64Deserializer::new(v)).map(Written::bare)
-            }
-            fn visit_i64<E: serde::de::Error>(self, v: i64) -> Result<Self::Value, E> {
-                Q::deserialize(value::I64Deserializer::new(v)).map(Written::bare)
-            }
-            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Self::Value, A::Error> {
-                let t = WrittenTable::<Q>::deserialize(value::MapAccessDeserializer::new(map))?;
-                let span = t.value.span();
-                Ok(Written {
-                    value: t.value.into_inner(),
-                    low: t.low,
-                    high: t.high,
-                    source: t.source,
-                    note: t.note,
-                    printed: t.printed,
-                    alternatives: t.alternatives,
-                    span: Some(span),
-                })
-            }
-        }
-        deserializer.deserialize_any(QuantityOrTable(PhantomData))
-    }
-}
-
-/// A property, a bare value checked in its place; a table knows the place of its value and is checked later.
-fn checked<'de, D: Deserializer<'de>, Q: Deserialize<'de> + Copy>(
-    kind: PropertyKind,
-    si: impl Fn(Q) -> f64,
-    deserializer: D,
-) -> Result<Option<Written<Q>>, D::Error> {
-    let written = Written::<Q>::deserialize(deserializer)?;
-    if written.span.is_none() {
-        kind.check(&Property { value: si(written.value), ..Property::default() }).map_err(serde::de::Error::custom)?;
-    }
-    Ok(Some(written))
-}
-
-macro_rules! checked_by_kind {
-    ($($name:ident: $quantity:ty = $kind:ident),* $(,)?) => {$(
-        fn $name<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Written<$quantity>>, D::Error> {
-            checked(PropertyKind::$kind, |q: $quantity| q.0, deserializer)
-        }
-    )*};
-}
-
-checked_by_kind! {
-    density: Density = Density, young_modulus: Pressure = YoungModulus, poisson_ratio: Number = PoissonRatio,
-    surface_energy: SurfaceEnergy = SurfaceEnergy, yield_strength: Pressure = YieldStrength,
-    hardness: Pressure = Hardness, tensile_strength: Pressure = TensileStrength,
-}
-
-/// The keys of a material table; the short symbols of the command line are accepted too.
-#[derive(Debug, serde::Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct Fields {
-    pub description: Option<String>,
-    #[serde(default)]
-    pub aliases: Vec<String>,
-    pub note: Option<String>,
-    #[serde(default, alias = "rho", deserialize_with = "density")]
-    pub density: Option<Written<Density>>,
-    #[serde(default, alias = "E", deserialize_with = "young_modulus")]
-    pub young_modulus: Option<Written<Pressure>>,
-    #[serde(default, alias = "nu", deserialize_with = "poisson_ratio")]
-    pub poisson_ratio: Option<Written<Number>>,
-    #[serde(default, alias = "gamma", deserialize_with = "surface_energy")]
-    pub surface_energy: Option<Written<SurfaceEnergy>>,
-    #[serde(default, alias = "sigma", deserialize_with = "yield_strength")]
-    pub yield_strength: Option<Written<Pressure>>,
-    #[serde(default, alias = "H", deserialize_with = "hardness")]
-    pub hardness: Option<Written<Pressure>>,
-    #[serde(default, alias = "sigma_t", deserialize_with = "tensile_strength")]
-    pub tensile_strength: Option<Written<Pressure>>,
 }

@@ -31,7 +31,10 @@ pub struct Fused;
 impl Fma for Fused {
     #[inline(always)]
     fn fma(self, a: f64, b: f64, c: f64) -> f64 {
-        a.mul_add(b, c)
+        #[cfg(feature = "std")]
+        return a.mul_add(b, c);
+        #[cfg(not(feature = "std"))]
+        libm::fma(a, b, c)
     }
 }
 

@@ -40,8 +40,9 @@ use super::Size;
 use super::inputs::Inputs;
 use super::mechanism::{Account, Mechanism, Stage};
 use super::registry::Term;
-use crate::error::SpecError;
+use crate::error::LawError;
 use crate::math::{self, BEST, Fma};
+use crate::spec::Key;
 use crate::validity::Validity;
 use core::f64::consts::PI;
 
@@ -79,7 +80,7 @@ impl Work {
     ///
     /// # Errors
     /// A material that lacks what the stiffness, the work of adhesion or the mass need.
-    pub fn of(law: &Inputs) -> Result<Self, SpecError> {
+    pub fn of(law: &Inputs) -> Result<Self, LawError> {
         let pair = law.pair()?;
         Ok(Self::new(pair.stiffness()?, pair.work_of_adhesion()?, law.roughness_factor(), pair.density()?))
     }
@@ -131,11 +132,17 @@ impl Mechanism for Work {
     const ABOUT: &'static str =
         "work of adhesion against a Hertz contact, Ψ_A ∝ C_R v^(-4/5) (Kim & Dunn 2007, Eq. 21)";
     const STAGE: Stage = Stage::Surface;
-    const KEYS: &'static [&'static str] = &[];
+    const KEYS: &'static [Key] = &[
+        Key::WorkOfAdhesion,
+        Key::InterfacialParameter,
+        Key::RoughnessFactor,
+        Key::Roughness,
+        Key::EquilibriumSpacing,
+    ];
     const ROUGHNESS: bool = true;
     const ADHESIVE_CONTACT: bool = true;
 
-    fn from_law(law: &Inputs) -> Result<Self, SpecError> {
+    fn from_law(law: &Inputs) -> Result<Self, LawError> {
         Self::of(law)
     }
 
@@ -180,13 +187,20 @@ impl Mechanism for AdhesionDamping {
     const KIND: &'static str = "adhesion damping";
     const ABOUT: &'static str = "damping of the adhesion force, Ψ_A C_A v (Kim & Dunn 2007, Eq. 24)";
     const STAGE: Stage = Stage::Surface;
-    const KEYS: &'static [&'static str] = &["adhesion_damping"];
+    const KEYS: &'static [Key] = &[
+        Key::AdhesionDamping,
+        Key::WorkOfAdhesion,
+        Key::InterfacialParameter,
+        Key::RoughnessFactor,
+        Key::Roughness,
+        Key::EquilibriumSpacing,
+    ];
     const ROUGHNESS: bool = true;
     const ADHESIVE_CONTACT: bool = true;
 
-    fn from_law(law: &Inputs) -> Result<Self, SpecError> {
+    fn from_law(law: &Inputs) -> Result<Self, LawError> {
         let work = Work::of(law)?;
-        let c_a = law.needed("adhesion_damping", "a coefficient for adhesion-damping", "adhesion_damping, in s/m")?;
+        let c_a = law.needed(Key::AdhesionDamping)?;
         Ok(Self::new(work, c_a))
     }
 
@@ -278,10 +292,10 @@ impl Mechanism for Jkr {
     const ABOUT: &'static str =
         "energy that tearing a JKR contact takes, (V_s/v)² (Thornton & Ning 1998); knows no roughness";
     const STAGE: Stage = Stage::Surface;
-    const KEYS: &'static [&'static str] = &[];
+    const KEYS: &'static [Key] = &[Key::WorkOfAdhesion, Key::InterfacialParameter, Key::EquilibriumSpacing];
     const ADHESIVE_CONTACT: bool = true;
 
-    fn from_law(law: &Inputs) -> Result<Self, SpecError> {
+    fn from_law(law: &Inputs) -> Result<Self, LawError> {
         let pair = law.pair()?;
         Ok(Self::new(pair.effective_modulus()?, pair.work_of_adhesion()?, pair.density()?))
     }

@@ -33,8 +33,9 @@ use super::Size;
 use super::inputs::Inputs;
 use super::mechanism::{Account, Mechanism, Stage};
 use super::plastic::PLASTIC_LOSS;
-use crate::error::SpecError;
+use crate::error::LawError;
 use crate::math::{self, Fma};
+use crate::spec::Key;
 use crate::validity::Validity;
 
 /// Bons' plastic loss for one pair.
@@ -70,9 +71,9 @@ impl Mechanism for Bons {
         "energy an elastic bar can store at yield, e = V_y/v above it (Bons et al. 2017, as derived here)";
     const STAGE: Stage = Stage::Bulk;
     const ELASTIC: bool = false;
-    const KEYS: &'static [&'static str] = &["plastic_constant"];
+    const KEYS: &'static [Key] = &[Key::PlasticConstant, Key::DynamicStrengthFactor];
 
-    fn from_law(law: &Inputs) -> Result<Self, SpecError> {
+    fn from_law(law: &Inputs) -> Result<Self, LawError> {
         let pair = law.pair()?;
         let strength = 2.0 * pair.plastic_constant()?;
         Ok(Self::new(pair.effective_modulus()?, strength, pair.density()?))

@@ -22,8 +22,9 @@
 use super::Size;
 use super::inputs::Inputs;
 use super::mechanism::{Account, Mechanism, Stage};
-use crate::error::SpecError;
+use crate::error::LawError;
 use crate::math::Fma;
+use crate::spec::Key;
 use crate::validity::Validity;
 
 /// (5/2)(2/3)^{5/2} = (10/9)√(2/3).
@@ -51,11 +52,10 @@ impl Mechanism for HertzDamping {
     const KIND: &'static str = "Hertzian damping";
     const ABOUT: &'static str = "damping in the bodies, Ψ_H C_H = 0.907 C_H v (Kim & Dunn 2007, Eq. 23)";
     const STAGE: Stage = Stage::Bulk;
-    const KEYS: &'static [&'static str] = &["hertz_damping"];
+    const KEYS: &'static [Key] = &[Key::HertzDamping];
 
-    fn from_law(law: &Inputs) -> Result<Self, SpecError> {
-        law.pair()?;
-        let coefficient = law.needed("hertz_damping", "a coefficient for hertz-damping", "hertz_damping, in s/m")?;
+    fn from_law(law: &Inputs) -> Result<Self, LawError> {
+        let coefficient = law.needed(Key::HertzDamping)?;
         Ok(Self { coefficient })
     }
 

@@ -22,7 +22,9 @@
 //! ```
 
 use crate::math;
-use std::f64::consts::PI;
+#[cfg(not(feature = "std"))]
+use crate::math::Plainly as _;
+use core::f64::consts::PI;
 
 /// v_cr (m/s) from the diameter (m), the Hertzian stiffness K (Pa) and the sphere's density (kg/m³).
 pub fn capture_velocity(diameter: f64, stiffness: f64, density: f64) -> f64 {

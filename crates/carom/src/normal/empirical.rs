@@ -11,11 +11,13 @@
 //! let table = AngleTable::piecewise_linear(&[10.0, 45.0, 90.0], &[0.9, 0.7, 0.6])?;
 //! assert!((table.at(45f64.to_radians()) - 0.7).abs() < 1e-15);
 //! assert_eq!(table.at(0.01), 0.9);
-//! # Ok::<(), carom::SpecError>(())
+//! # Ok::<(), carom::LawError>(())
 //! ```
 
-use crate::error::SpecError;
+use crate::error::LawError;
 use crate::math::{self, BEST, Fma};
+use alloc::boxed::Box;
+use alloc::vec::Vec;
 use core::f64::consts::FRAC_PI_2;
 
 /// Most coefficients of one polynomial.
@@ -33,15 +35,15 @@ pub struct Piece {
 }
 
 impl Piece {
-    fn new(from: f64, to: f64, origin: f64, given: &[f64]) -> Result<Self, SpecError> {
+    fn new(from: f64, to: f64, origin: f64, given: &[f64]) -> Result<Self, LawError> {
         if given.is_empty() || given.len() > MAX_COEFFICIENTS {
-            return Err(SpecError::new(format!("a polynomial with {} coefficients", given.len()))
+            return Err(LawError::new(format!("a polynomial with {} coefficients", given.len()))
                 .help(format!("1 to {MAX_COEFFICIENTS} are read, lowest power first")));
         }
         let mut coefficients = [0.0; MAX_COEFFICIENTS];
         for (slot, &c) in coefficients.iter_mut().zip(given) {
             if !c.is_finite() {
-                return Err(SpecError::new(format!("coefficient {c} is not finite")));
+                return Err(LawError::new(format!("coefficient {c} is not finite")));
             }
             *slot = c;
         }
@@ -79,7 +81,7 @@ impl AngleTable {
     ///
     /// # Errors
     /// No, too many or non-finite coefficients.
-    pub fn polynomial(coefficients: &[f64]) -> Result<Self, SpecError> {
+    pub fn polynomial(coefficients: &[f64]) -> Result<Self, LawError> {
         Ok(Self { pieces: Box::new([Piece::new(0.0, FRAC_PI_2, 0.0, coefficients)?]) })
     }
 
@@ -87,9 +89,9 @@ impl AngleTable {
     ///
     /// # Errors
     /// Lengths that differ, angles outside [0°, 90°] or not rising.
-    pub fn piecewise_linear(degrees: &[f64], values: &[f64]) -> Result<Self, SpecError> {
+    pub fn piecewise_linear(degrees: &[f64], values: &[f64]) -> Result<Self, LawError> {
         if degrees.len() != values.len() || degrees.len() < 2 || degrees.len() > MAX_PIECES {
-            return Err(SpecError::new(format!("{} angles and {} values", degrees.len(), values.len()))
+            return Err(LawError::new(format!("{} angles and {} values", degrees.len(), values.len()))
                 .help(format!("give as many values as angles, 2 to {MAX_PIECES}")));
         }
         let mut pieces = Vec::with_capacity(degrees.len() - 1);
@@ -105,15 +107,15 @@ impl AngleTable {
     ///
     /// # Errors
     /// Pieces that leave a gap or overlap, or as in the other forms.
-    pub fn piecewise_polynomial(given: &[(f64, f64, Vec<f64>)]) -> Result<Self, SpecError> {
+    pub fn piecewise_polynomial(given: &[(f64, f64, Vec<f64>)]) -> Result<Self, LawError> {
         if given.is_empty() || given.len() > MAX_PIECES {
-            return Err(SpecError::new(format!("{} pieces", given.len())).help(format!("1 to {MAX_PIECES} are read")));
+            return Err(LawError::new(format!("{} pieces", given.len())).help(format!("1 to {MAX_PIECES} are read")));
         }
         let mut pieces: Vec<Piece> = Vec::with_capacity(given.len());
         for (i, (from, to, coefficients)) in given.iter().enumerate() {
             check_interval(*from, *to)?;
             if i > 0 && given[i - 1].1 != *from {
-                return Err(SpecError::new(format!(
+                return Err(LawError::new(format!(
                     "a piece ends at {}° and the next begins at {from}°",
                     given[i - 1].1
                 ))
@@ -138,13 +140,13 @@ impl AngleTable {
     ///
     /// # Errors
     /// The angle and the value there.
-    pub fn check_range(&self, low: f64, high: f64) -> Result<(), SpecError> {
+    pub fn check_range(&self, low: f64, high: f64) -> Result<(), LawError> {
         let steps = 3600;
         for i in 1..=steps {
             let angle = FRAC_PI_2 * f64::from(i) / f64::from(steps);
             let value = self.at(angle);
             if !(value >= low - 1e-12 && value <= high + 1e-12) {
-                return Err(SpecError::new(format!("the curve gives {value:.4} at {:.2} deg", angle.to_degrees()))
+                return Err(LawError::new(format!("the curve gives {value:.4} at {:.2} deg", angle.to_degrees()))
                     .help(format!("it must stay between {low} and {high}")));
             }
         }
@@ -160,11 +162,11 @@ fn value_at<F: Fma>(f: F, pieces: &[Piece], angle: f64) -> f64 {
     pieces.get(chosen).map_or(0.0, |p| p.at(f, angle))
 }
 
-fn check_interval(from: f64, to: f64) -> Result<(), SpecError> {
+fn check_interval(from: f64, to: f64) -> Result<(), LawError> {
     if from >= 0.0 && to <= 90.0 && from < to {
         Ok(())
     } else {
-        Err(SpecError::new(format!("angles {from} deg to {to} deg"))
+        Err(LawError::new(format!("angles {from} deg to {to} deg"))
             .help("angles rise from 0 to 90 deg, measured from the surface"))
     }
 }

@@ -3,8 +3,9 @@
 use super::Size;
 use super::inputs::Inputs;
 use super::registry::Term;
-use crate::error::SpecError;
+use crate::error::LawError;
 use crate::math::Fma;
+use crate::spec::Key;
 use crate::validity::Validity;
 
 /// Fractions ε_i of the normal kinetic energy, each ≥ 0; the sum may exceed 1 (capture). One column for each way to lose energy, not
@@ -61,7 +62,7 @@ impl Account {
 
 /// A loss mechanism, compiled for one pair of materials: plain numbers.
 ///
-/// A new mechanism is one file with a type that implements this, and one line in [`super::registry`].
+/// A new mechanism is one file with a type that implements this, and one line in `registry.rs` beside it.
 pub trait Mechanism: Copy {
     /// Its name in a law file.
     const NAME: &'static str;
@@ -71,8 +72,9 @@ pub trait Mechanism: Copy {
     const ABOUT: &'static str;
     /// Where it takes its share.
     const STAGE: Stage;
-    /// The keys of a law file that it reads, materials' properties aside.
-    const KEYS: &'static [&'static str];
+    /// The keys of a law that it reads, those of the pair's constants among them. Stiffness and curvature, by which every loss's contact
+    /// is judged, need not be listed.
+    const KEYS: &'static [Key];
     /// Does it scale with the roughness factor C_R?
     const ROUGHNESS: bool = false;
     /// Does it take the bodies to stay elastic, or say nothing of it? A plastic loss does not, nor does a measured restitution.
@@ -84,7 +86,7 @@ pub trait Mechanism: Copy {
     ///
     /// # Errors
     /// What it needs and the law lacks.
-    fn from_law(law: &Inputs) -> Result<Self, SpecError>;
+    fn from_law(law: &Inputs) -> Result<Self, LawError>;
 
     /// Takes its share at normal approach speed `v` (m/s): a bulk loss adds to `bulk`, a surface loss takes from `left`; both note it in
     /// `losses`.

@@ -27,8 +27,9 @@
 use super::Size;
 use super::inputs::Inputs;
 use super::mechanism::{Account, Mechanism, Stage};
-use crate::error::SpecError;
+use crate::error::LawError;
 use crate::math::{self, BEST, Fma};
+use crate::spec::Key;
 use core::f64::consts::PI;
 
 /// Kind of the plastic losses.
@@ -79,9 +80,9 @@ impl Mechanism for Kadomtsev {
     const ABOUT: &'static str = "elastic-plastic contact of the EAP model (Kadomtsev; Kim & Dunn 2007, Eqs 29-34)";
     const STAGE: Stage = Stage::Bulk;
     const ELASTIC: bool = false;
-    const KEYS: &'static [&'static str] = &["plastic_constant"];
+    const KEYS: &'static [Key] = &[Key::PlasticConstant, Key::DynamicStrengthFactor];
 
-    fn from_law(law: &Inputs) -> Result<Self, SpecError> {
+    fn from_law(law: &Inputs) -> Result<Self, LawError> {
         let pair = law.pair()?;
         Ok(Self::new(pair.effective_modulus()?, pair.plastic_constant()?, pair.density()?))
     }

@@ -14,8 +14,9 @@ use super::restitution::GivenRestitution;
 use super::tabor::Tabor;
 use super::thornton_ning::ThorntonNing;
 use super::well::AdhesionWell;
-use crate::error::SpecError;
+use crate::error::LawError;
 use crate::math::Fma;
+use crate::spec::Key;
 use crate::validity::Validity;
 
 macro_rules! losses {
@@ -46,8 +47,8 @@ macro_rules! losses {
                 match self { $(Self::$loss => $mechanism::ABOUT,)* }
             }
 
-            /// The keys of a law file that it reads, materials' properties aside.
-            pub const fn keys(self) -> &'static [&'static str] {
+            /// The keys of a law that it reads of its own; [`Loss::keys`] has all.
+            pub(crate) const fn own_keys(self) -> &'static [Key] {
                 match self { $(Self::$loss => $mechanism::KEYS,)* }
             }
 
@@ -60,7 +61,7 @@ macro_rules! losses {
             ///
             /// # Errors
             /// What it needs and the law lacks.
-            pub(crate) fn compile(self, law: &Inputs) -> Result<Term, SpecError> {
+            pub(crate) fn compile(self, law: &Inputs) -> Result<Term, LawError> {
                 Ok(match self { $(Self::$loss => Term::$loss($mechanism::from_law(law)?),)* })
             }
         }

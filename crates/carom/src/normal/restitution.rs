@@ -19,8 +19,9 @@
 use super::Size;
 use super::inputs::Inputs;
 use super::mechanism::{Account, Mechanism, Stage};
-use crate::error::SpecError;
+use crate::error::LawError;
 use crate::math::Fma;
+use crate::spec::Key;
 
 /// A given restitution.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,10 +44,10 @@ impl Mechanism for GivenRestitution {
     const ABOUT: &'static str = "one number for what deformation takes, 1 - e^2 (Dahneke 1971)";
     const STAGE: Stage = Stage::Bulk;
     const ELASTIC: bool = false;
-    const KEYS: &'static [&'static str] = &["restitution"];
+    const KEYS: &'static [Key] = &[Key::Restitution];
 
-    fn from_law(law: &Inputs) -> Result<Self, SpecError> {
-        law.needed("restitution", "the restitution that adhesion leaves untouched", "restitution = 0.95").map(Self::new)
+    fn from_law(law: &Inputs) -> Result<Self, LawError> {
+        law.needed(Key::Restitution).map(Self::new)
     }
 
     #[inline(always)]

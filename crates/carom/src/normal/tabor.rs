@@ -26,8 +26,9 @@ use super::Size;
 use super::inputs::Inputs;
 use super::mechanism::{Account, Mechanism, Stage};
 use super::plastic::PLASTIC_LOSS;
-use crate::error::SpecError;
+use crate::error::LawError;
 use crate::math::{self, BEST, Fma};
+use crate::spec::Key;
 
 /// Tabor's plastic loss.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -95,12 +96,11 @@ impl Mechanism for Tabor {
     const ABOUT: &'static str = "indentation with work hardening, fitted (Tabor 1948; Kim & Dunn 2007, Eqs 41-43)";
     const STAGE: Stage = Stage::Bulk;
     const ELASTIC: bool = false;
-    const KEYS: &'static [&'static str] = &["yield_velocity", "meyer_index"];
+    const KEYS: &'static [Key] = &[Key::YieldVelocity, Key::MeyerIndex];
 
-    fn from_law(law: &Inputs) -> Result<Self, SpecError> {
-        let yield_velocity =
-            law.needed("yield_velocity", "Tabor's fitted yield velocity", "yield_velocity = \"0.09 m/s\"")?;
-        let meyer_index = law.needed("meyer_index", "Meyer's index", "meyer_index = 2.29")?;
+    fn from_law(law: &Inputs) -> Result<Self, LawError> {
+        let yield_velocity = law.needed(Key::YieldVelocity)?;
+        let meyer_index = law.needed(Key::MeyerIndex)?;
         Ok(Self { yield_velocity, meyer_index })
     }
 

@@ -23,8 +23,9 @@ use super::Size;
 use super::inputs::Inputs;
 use super::mechanism::{Account, Mechanism, Stage};
 use super::plastic::PLASTIC_LOSS;
-use crate::error::SpecError;
+use crate::error::LawError;
 use crate::math::{self, BEST, Fma};
+use crate::spec::Key;
 use core::f64::consts::PI;
 
 /// p_y/σ when the law names no limiting pressure.
@@ -69,11 +70,11 @@ impl Mechanism for ThorntonNing {
     const ABOUT: &'static str = "elastic, perfectly plastic spheres (Thornton & Ning 1998; Kim & Dunn 2007, Eq. 44)";
     const STAGE: Stage = Stage::Bulk;
     const ELASTIC: bool = false;
-    const KEYS: &'static [&'static str] = &["limiting_pressure", "plastic_constant"];
+    const KEYS: &'static [Key] = &[Key::LimitingPressure, Key::PlasticConstant, Key::DynamicStrengthFactor];
 
-    fn from_law(law: &Inputs) -> Result<Self, SpecError> {
+    fn from_law(law: &Inputs) -> Result<Self, LawError> {
         let pair = law.pair()?;
-        let pressure = match law.number("limiting_pressure") {
+        let pressure = match law.number(Key::LimitingPressure) {
             Some(given) => given,
             None => 2.0 * pair.plastic_constant()? * PRESSURE_OVER_STRENGTH,
         };

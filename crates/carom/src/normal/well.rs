@@ -39,8 +39,11 @@ use super::Size;
 use super::adhesion::{ADHESION_WORK, RADIUS_UNIT};
 use super::inputs::Inputs;
 use super::mechanism::{Account, Mechanism, Stage};
-use crate::error::SpecError;
+use crate::error::{LawError, Problem};
 use crate::math::{self, Fma};
+use crate::spec::{Choice, Key};
+use alloc::borrow::ToOwned;
+use alloc::string::ToString;
 use core::f64::consts::PI;
 
 /// A well: depths over half the mass of a sphere of the law's density, radii in units of 10 µm, m²/s².
@@ -98,45 +101,28 @@ impl Mechanism for AdhesionWell {
     const ABOUT: &'static str =
         "fall into an adhesion well and climb out of it, given by depth or Hamaker constant (Dahneke 1971)";
     const STAGE: Stage = Stage::Surface;
-    const KEYS: &'static [&'static str] = &["well_depth", "well_depth_out", "hamaker_constant", "equilibrium_spacing"];
+    const KEYS: &'static [Key] = &[Key::WellDepth, Key::WellDepthOut, Key::HamakerConstant, Key::EquilibriumSpacing];
 
-    fn from_law(law: &Inputs) -> Result<Self, SpecError> {
+    fn from_law(law: &Inputs) -> Result<Self, LawError> {
         let density = law.pair()?.density()?;
-        let refused = |what: &str, help: &str| Err(SpecError::new(what).help(help));
-        match (law.number("well_depth"), law.number("well_depth_out"), law.number("hamaker_constant")) {
-            (Some(_), _, Some(_)) => refused(
-                "both well_depth and hamaker_constant",
-                "the depth is given or follows from the Hamaker constant: keep one",
-            ),
-            (Some(within), out, None) => {
-                if law.number("equilibrium_spacing").is_some() {
-                    return refused(
-                        "equilibrium_spacing has no effect beside well_depth",
-                        "it turns a hamaker_constant into a depth: leave it out",
-                    );
-                }
-                let out = out.unwrap_or(within);
-                if out < within {
-                    return refused(
-                        "well_depth_out is below well_depth, and a fast sphere would leave faster than it came",
-                        "give a depth on the way out at least as great as on the way in",
-                    );
-                }
-                Ok(Self::of_depths(within, out, density))
+        let idle =
+            |key, reader| Err(Problem::IdleKey { key, beside: None, readers: vec![Choice::Given(reader)] }.into());
+        let [within, out, hamaker] = [Key::WellDepth, Key::WellDepthOut, Key::HamakerConstant].map(|k| law.number(k));
+        match (within, out, hamaker) {
+            (Some(_), _, None) if law.number(Key::EquilibriumSpacing).is_some() => {
+                idle(Key::EquilibriumSpacing, Key::HamakerConstant)
             }
-            (None, Some(_), Some(_)) => refused(
-                "well_depth_out has no effect beside hamaker_constant",
-                "Hamaker's well is as deep on the way out as on the way in: leave it out",
-            ),
-            (None, _, Some(constant)) => {
-                let what = "the equilibrium spacing of hamaker_constant";
-                let spacing = law.needed("equilibrium_spacing", what, "equilibrium_spacing = \"0.4 nm\"")?;
-                Ok(Self::of_hamaker(constant, spacing, density))
+            (Some(within), Some(out), None) if out < within => Err(Problem::OutOfRange {
+                key: Key::WellDepthOut.name().to_owned(),
+                value: out.to_string(),
+                unit: "J",
+                right: format!("it is at least well_depth, {within} J: a sphere would else leave faster than it came"),
             }
-            (None, _, None) => refused(
-                "the law needs the depth of the adhesion well",
-                "give well_depth, in J, or hamaker_constant with equilibrium_spacing",
-            ),
+            .into()),
+            (Some(within), out, None) => Ok(Self::of_depths(within, out.unwrap_or(within), density)),
+            (None, Some(_), Some(_)) => idle(Key::WellDepthOut, Key::WellDepth),
+            (_, _, Some(constant)) => Ok(Self::of_hamaker(constant, law.needed(Key::EquilibriumSpacing)?, density)),
+            (None, _, None) => law.needed(Key::WellDepth).map(|depth| Self::of_depths(depth, depth, density)),
         }
     }
 

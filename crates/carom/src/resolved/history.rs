@@ -1,8 +1,11 @@
 //! Time histories of a resolved contact.
 
 use super::Resolved;
+#[cfg(not(feature = "std"))]
+use crate::math::Plainly as _;
 use crate::math::{self, BEST};
 use crate::normal::Size;
+use alloc::vec::Vec;
 use core::f64::consts::PI;
 
 /// Scales that turn the dimensionless contact into SI units.

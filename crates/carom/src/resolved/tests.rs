@@ -116,7 +116,7 @@ fn a_pure_hertz_history_has_the_known_duration_and_depth() {
     let law = Resolved::new(Work::default(), UNDAMPED, AdhesionMode::SeparationOnly);
     let (size, scales) = (Size::flat(35e-6), Scales { stiffness: 127.8e9, density: 8000.0 });
     let moments = law.history(1.0, &size, &scales, 0.5, 0.2, 64);
-    let m = 4.0 / 3.0 * std::f64::consts::PI * 8000.0 * 35e-6f64.powi(3);
+    let m = 4.0 / 3.0 * core::f64::consts::PI * 8000.0 * 35e-6f64.powi(3);
     let deepest = (5.0 * m / (4.0 * 35e-6f64.sqrt() * 127.8e9)).powf(0.4);
     let got = moments.iter().map(|p| p.overlap).fold(0.0, f64::max);
     assert!((got / deepest - 1.0).abs() < 1e-9);
@@ -153,12 +153,12 @@ fn a_plain_integration_in_time_agrees() {
     let (ca, ch) = (1.3, 0.007);
     let e_star = 1.0 / ((1.0 - 0.27f64 * 0.27) / 190e9 + (1.0 - 0.28f64 * 0.28) / 166e9);
     let (k, w, c_r, rho, r) = (4.0 / 3.0 * e_star, 3.03, 0.15, 8000.0, 35e-6f64);
-    let m = 4.0 / 3.0 * std::f64::consts::PI * rho * r.powi(3);
-    let f0 = (9.0 * k * r * w * w / (2.0 * std::f64::consts::PI)).cbrt();
+    let m = 4.0 / 3.0 * core::f64::consts::PI * rho * r.powi(3);
+    let f0 = (9.0 * k * r * w * w / (2.0 * core::f64::consts::PI)).cbrt();
     let force = |x: f64, v: f64| {
         let x = x.max(0.0);
         let adhesion =
-            if v < 0.0 { 2.0 * std::f64::consts::PI * (r * x).sqrt() * f0 * c_r * (1.0 - ca * v) } else { 0.0 };
+            if v < 0.0 { 2.0 * core::f64::consts::PI * (r * x).sqrt() * f0 * c_r * (1.0 - ca * v) } else { 0.0 };
         (-r.sqrt() * k * x.powf(1.5) * (1.0 + ch * v) + adhesion) / m
     };
     let (mut x, mut v, dt) = (0.0f64, 1.0f64, 2e-13);

@@ -35,7 +35,9 @@
 //! ```
 
 use crate::math;
-use std::f64::consts::PI;
+#[cfg(not(feature = "std"))]
+use crate::math::Plainly as _;
+use core::f64::consts::PI;
 
 /// Heights beyond this many standard deviations count for nothing.
 const TAIL: f64 = 9.0;

@@ -1,240 +1,140 @@
-//! From a law as written to a law that answers: every need is checked here, once.
+//! From checked values to a law: each part's constants.
 
-use super::check::{checked, form_fits, need, not_negative, positive};
-use super::curve::Which;
-use super::{At, LawSpec, NormalKind, NormalSpec};
-use crate::error::SpecError;
-use crate::material::{Library, Material, MaterialRef};
+use super::keys::LawBuilder;
+use super::uses::Choice;
+use super::{Key, NormalKind, NormalSpec, TangentialKind};
+use crate::error::{LawError, Problem};
 use crate::normal::adhesion::Work;
 use crate::normal::empirical::Curve;
 use crate::normal::ledger::TwoOfAKind;
 use crate::normal::{Inputs, Ledger, Loss, NormalLaw};
-use crate::pair::{Overrides, Pair};
+use crate::pair::Pair;
 use crate::resolved::{Damping, Resolved};
-use crate::roughness;
+use crate::roughness::{self, CALIBRATED_ROUGHNESS, CALIBRATED_SPACING, RoughnessModel, fuller_tabor};
+use crate::scatter::Scatter;
 use crate::validity::Validity;
-use crate::wall::{About, Normal, Parts, WallLaw};
+use crate::wall::{About, Along, Normal, Parts, WallLaw};
+use alloc::vec::Vec;
 
-/// The numbers of a law, each within its range.
-struct Numbers {
-    adhesion_damping: Option<f64>,
-    hertz_damping: Option<f64>,
-    roughness_factor: f64,
-    spacing: f64,
-    surface_curvature: f64,
-    overrides: Overrides,
+/// The law of a builder whose values are within their ranges and whose keys are all read.
+pub(super) fn law(b: &LawBuilder, spec: &NormalSpec, pair: Option<Pair>) -> Result<WallLaw, LawError> {
+    let adheres = !spec.is_table();
+    let (factor, extrapolated) = roughness_factor(b, pair.as_ref().filter(|_| adheres))?;
+    let normal = normal_law(b, spec, pair.as_ref(), factor).map_err(|e| e.blame(Key::Normal))?;
+    let tangential = tangential_law(b, pair.as_ref()).map_err(|e| e.blame(Key::Tangential))?;
+    let uses_roughness = matches!(&normal, Normal::Compiled(law) if law.uses_roughness());
+    Ok(WallLaw::new(Parts {
+        normal,
+        tangential,
+        surface_curvature: b.surface_curvature.map_or(0.0, |r| 1.0 / r),
+        scatter: b.roughness_angle.filter(|a| *a > 0.0).map(Scatter::new),
+        validity: Validity::ROUGHNESS_EXTRAPOLATED.when(extrapolated && uses_roughness),
+        about: About {
+            pair,
+            roughness: b.roughness,
+            roughness_factor: factor,
+            spacing: b.equilibrium_spacing.unwrap_or(CALIBRATED_SPACING),
+        },
+    }))
 }
 
-impl LawSpec {
-    /// Checks the law and turns it into one that answers.
-    ///
-    /// # Errors
-    /// What is missing, impossible or contradictory, with its place in the text the law was read from.
-    pub fn compile(&self, library: &Library) -> Result<WallLaw, SpecError> {
-        let normal_spec = self
-            .normal
-            .as_ref()
-            .ok_or_else(|| need("a normal law", &format!("normal = \"{}\"", NormalKind::NAMES.join("\" or \""))))?;
-        let mut numbers = self.numbers()?;
-        let pair = self.pair(library, &numbers)?;
-        // a table has no adhesion that a roughness could lessen, and need not have a pair
-        let table = matches!(normal_spec.value, NormalSpec::Named(NormalKind::Constant | NormalKind::ByAngle));
-        let roughness = self.roughness(numbers.spacing, pair.as_ref().filter(|_| !table))?;
-        numbers.roughness_factor = roughness.factor;
-        let place = normal_spec.span.clone();
-        self.refuse_idle_keys(&normal_spec.value)?;
-        let normal = self.normal_law(&normal_spec.value, pair.as_ref(), &numbers).map_err(|e| e.at(place))?;
-        let tangential = self.tangential_law(pair.as_ref())?;
-        let uses_roughness = matches!(&normal, Normal::Compiled(law) if law.uses_roughness());
-        Ok(WallLaw::new(Parts {
-            normal,
-            tangential,
-            surface_curvature: numbers.surface_curvature,
-            scatter: self.scatter()?,
-            validity: Validity::ROUGHNESS_EXTRAPOLATED.when(roughness.extrapolated && uses_roughness),
-            about: About {
-                pair,
-                roughness: roughness.height,
-                roughness_factor: roughness.factor,
-                spacing: numbers.spacing,
-            },
-        }))
+/// C_R: given, or from the roughness by its model, or 1; and whether it lies beyond its curve's calibration.
+fn roughness_factor(b: &LawBuilder, pair: Option<&Pair>) -> Result<(f64, bool), LawError> {
+    let spacing = b.equilibrium_spacing.unwrap_or(CALIBRATED_SPACING);
+    match (b.roughness_factor, b.roughness) {
+        (Some(factor), _) => Ok((factor, false)),
+        (None, None) => Ok((1.0, false)),
+        (None, Some(height)) => match b.roughness_model.unwrap_or_default() {
+            RoughnessModel::FullerTabor => Ok((fuller_tabor(b, height, pair)?, false)),
+            RoughnessModel::Rabinovich => Ok((roughness::factor(height, spacing), height > CALIBRATED_ROUGHNESS)),
+        },
     }
+}
 
-    fn numbers(&self) -> Result<Numbers, SpecError> {
-        let damping = "zero or more is wanted, in s/m";
-        let spacing = checked(
-            &self.equilibrium_spacing,
-            "equilibrium_spacing",
-            |l| l.0,
-            positive,
-            "a positive length is wanted",
-        )?
-        .unwrap_or(roughness::CALIBRATED_SPACING);
-        let radius = checked(
-            &self.surface_curvature,
-            "surface_curvature",
-            |r| r.0,
-            |v| v != 0.0 && !v.is_nan(),
-            "a radius of curvature, \"inf\" for a flat surface, negative for a concave one",
-        )?;
-        Ok(Numbers {
-            adhesion_damping: checked(&self.adhesion_damping, "adhesion_damping", |d| d.0, not_negative, damping)?,
-            hertz_damping: checked(&self.hertz_damping, "hertz_damping", |d| d.0, not_negative, damping)?,
-            roughness_factor: 1.0,
-            spacing,
-            surface_curvature: radius.map_or(0.0, |r| 1.0 / r),
-            overrides: Overrides {
-                work_of_adhesion: checked(
-                    &self.work_of_adhesion,
-                    "work_of_adhesion",
-                    |w| w.0,
-                    not_negative,
-                    "zero or more is wanted, in J/m2",
-                )?,
-                stiffness: checked(&self.stiffness, "stiffness", |k| k.0, positive, "a positive pressure is wanted")?,
-                plastic_constant: checked(
-                    &self.plastic_constant,
-                    "plastic_constant",
-                    |k| k.0,
-                    positive,
-                    "a positive pressure is wanted",
-                )?,
-                dynamic_strength_factor: None,
-                interfacial_parameter: checked(
-                    &self.interfacial_parameter,
-                    "interfacial_parameter",
-                    |p| p.0,
-                    positive,
-                    "a positive number, about 1",
-                )?,
-            },
-        })
+/// Fuller & Tabor's C_R needs the pair; where there is none, nothing adheres.
+fn fuller_tabor(b: &LawBuilder, height: f64, pair: Option<&Pair>) -> Result<f64, LawError> {
+    let radius = b.needed(Key::AsperityRadius, Choice::RoughnessModel(RoughnessModel::FullerTabor))?;
+    let Some(pair) = pair else { return Ok(1.0) };
+    let blame = |e: LawError| e.blame(Key::RoughnessModel);
+    let (w, e_star) = (pair.work_of_adhesion().map_err(blame)?, pair.effective_modulus().map_err(blame)?);
+    if w <= 0.0 {
+        return Ok(1.0);
     }
+    Ok(fuller_tabor::factor(fuller_tabor::adhesion_parameter(height, radius, w, e_star)))
+}
 
-    fn pair(&self, library: &Library, numbers: &Numbers) -> Result<Option<Pair>, SpecError> {
-        let resolve = |given: &At<MaterialRef>| given.value.resolve(library).map_err(|e| e.at(given.span.clone()));
-        let sphere = self.sphere.as_ref().map(resolve).transpose()?;
-        let surface = self.surface.as_ref().map(resolve).transpose()?;
-        if sphere.is_none() && surface.is_none() && numbers.overrides == Overrides::default() {
-            return Ok(None);
+fn normal_law(b: &LawBuilder, spec: &NormalSpec, pair: Option<&Pair>, factor: f64) -> Result<Normal, LawError> {
+    match spec {
+        NormalSpec::Named(kind @ (NormalKind::Constant | NormalKind::ByAngle)) => {
+            let curve = given_curve(&b.restitution, Key::Restitution, Choice::Normal(*kind))?;
+            form_fits(*kind == NormalKind::Constant, &curve, Key::Normal, Key::Restitution)?;
+            Ok(Normal::Curve(curve))
         }
-        let unnamed = |what: &str| Material { name: format!("the {what} (not given)"), ..Material::default() };
-        Ok(Some(Pair::new(
-            &sphere.unwrap_or_else(|| unnamed("sphere")),
-            &surface.unwrap_or_else(|| unnamed("surface")),
-            &numbers.overrides,
-        )))
-    }
-
-    /// Keys that would silently do nothing, where a reader would expect them to.
-    fn refuse_idle_keys(&self, normal: &NormalSpec) -> Result<(), SpecError> {
-        let table = matches!(normal, NormalSpec::Named(NormalKind::Constant | NormalKind::ByAngle));
-        if let (Some(at), false) = (&self.restitution, table) {
-            return Err(SpecError::new("restitution has no effect on this normal law")
-                .help("write normal = \"constant\" or \"by-angle\", or leave it out")
-                .at(at.span.clone()));
+        NormalSpec::Named(kind @ NormalKind::Resolved) => {
+            let work = Work::of(&Inputs::new(pair, factor, b, Choice::Normal(*kind)))?;
+            let damping =
+                Damping { adhesion: b.adhesion_damping.unwrap_or(0.0), hertz: b.hertz_damping.unwrap_or(0.0) };
+            let resolved = Resolved::new(work, damping, b.adhesion.unwrap_or_default());
+            Ok(Normal::Compiled(NormalLaw::Resolved(resolved)))
         }
-        let takes = |loss: Loss| match normal {
-            NormalSpec::Losses(list) => list.contains(&loss),
-            NormalSpec::Named(NormalKind::ThorntonNing | NormalKind::Tabor) => false,
-            NormalSpec::Named(_) => true,
+        _ => ledger(b, spec, pair, factor).map(|ledger| Normal::Compiled(NormalLaw::Ledger(ledger))),
+    }
+}
+
+fn ledger(b: &LawBuilder, spec: &NormalSpec, pair: Option<&Pair>, factor: f64) -> Result<Ledger, LawError> {
+    let compile = |loss: Loss| {
+        let reader = match spec {
+            NormalSpec::Named(kind) => Choice::Normal(*kind),
+            NormalSpec::Losses(_) => Choice::Loss(loss),
         };
-        for (key, span, loss) in [
-            ("adhesion_damping", self.adhesion_damping.as_ref().map(|a| &a.span), Loss::AdhesionDamping),
-            ("hertz_damping", self.hertz_damping.as_ref().map(|a| &a.span), Loss::HertzDamping),
-        ] {
-            if let (Some(span), false) = (span, takes(loss)) {
-                return Err(SpecError::new(format!("{key} has no effect: the law has no {}", loss.name()))
-                    .help(format!("list the losses with \"{}\" among them, or leave the key out", loss.name()))
-                    .at(span.clone()));
-            }
+        if let (Loss::GivenRestitution, Some(Curve::ByAngle(_))) = (loss, &b.restitution) {
+            return Err(Problem::CurveForm { law: Key::Normal, curve: Key::Restitution, reader }.into());
         }
-        if let (Some(at), false) = (&self.adhesion, matches!(normal, NormalSpec::Named(NormalKind::Resolved))) {
-            return Err(SpecError::new("adhesion is a choice of the resolved law alone")
-                .help("write normal = \"resolved\", or leave it out")
-                .at(at.span.clone()));
+        loss.compile(&Inputs::new(pair, factor, b, reader))
+    };
+    let terms = spec.losses(b).into_iter().map(compile).collect::<Result<Vec<_>, _>>()?;
+    Ledger::new(terms).map_err(|TwoOfAKind(first, second)| Problem::LossesOverlap { first, second }.into())
+}
+
+fn tangential_law(b: &LawBuilder, pair: Option<&Pair>) -> Result<Along, LawError> {
+    let kind = b.tangential_kind();
+    let reader = Choice::Tangential(kind);
+    Ok(match (kind, b.friction) {
+        (TangentialKind::Rolling, Some(friction)) => Along::Friction { friction, beta: 0.0 },
+        (TangentialKind::Walton, friction) => {
+            let beta = b.needed(Key::WaltonBeta, reader)?;
+            friction.map_or(Along::NotGiven, |friction| Along::Friction { friction, beta })
         }
-        Ok(())
-    }
-
-    fn normal_law(&self, spec: &NormalSpec, pair: Option<&Pair>, numbers: &Numbers) -> Result<Normal, SpecError> {
-        let damping = [Loss::AdhesionDamping, Loss::HertzDamping];
-        let given = |losses: &[Loss]| {
-            let coefficients = [numbers.adhesion_damping, numbers.hertz_damping];
-            let extra = damping.iter().zip(coefficients).filter(|(_, c)| c.is_some()).map(|(l, _)| *l);
-            losses.iter().copied().chain(extra).collect::<Vec<_>>()
-        };
-        let losses = match spec {
-            NormalSpec::Losses(list) => list.clone(),
-            NormalSpec::Named(NormalKind::Ea) => given(&[Loss::AdhesionWork]),
-            NormalSpec::Named(NormalKind::Eap) => given(&[Loss::PlasticKadomtsev, Loss::AdhesionWork]),
-            NormalSpec::Named(NormalKind::ThorntonNing) => vec![Loss::PlasticThorntonNing, Loss::AdhesionJkr],
-            NormalSpec::Named(NormalKind::Tabor) => vec![Loss::PlasticTabor],
-            NormalSpec::Named(kind @ (NormalKind::Constant | NormalKind::ByAngle)) => {
-                return self.table(*kind).map(Normal::Curve);
-            }
-            NormalSpec::Named(NormalKind::Resolved) => {
-                let pair = pair.ok_or_else(|| {
-                    need("a sphere and a surface", "sphere and surface, by name or with their properties")
-                })?;
-                let damping = Damping {
-                    adhesion: numbers.adhesion_damping.unwrap_or(0.0),
-                    hertz: numbers.hertz_damping.unwrap_or(0.0),
-                };
-                let mode = self.adhesion.as_ref().map(|a| a.value).unwrap_or_default();
-                let work = Work::of(&Inputs::new(Some(pair), numbers.roughness_factor, &|_| None))?;
-                return Ok(Normal::Compiled(NormalLaw::Resolved(Resolved::new(work, damping, mode))));
-            }
-        };
-        super::normal::check(&losses)?;
-        self.ledger(&losses, pair, numbers).map(|ledger| Normal::Compiled(NormalLaw::Ledger(ledger)))
-    }
-
-    fn table(&self, kind: NormalKind) -> Result<Curve, SpecError> {
-        let example =
-            if kind == NormalKind::Constant { "restitution = 0.7" } else { "restitution = { polynomial = [...] }" };
-        let at = self.restitution.as_ref().ok_or_else(|| need("a restitution", example))?;
-        form_fits(kind == NormalKind::Constant, at, "normal")?;
-        at.value.resolve(Which::Normal).map_err(|e| e.at(at.span.clone()))
-    }
-
-    fn ledger(&self, losses: &[Loss], pair: Option<&Pair>, numbers: &Numbers) -> Result<Ledger, SpecError> {
-        if losses.contains(&Loss::AdhesionJkr) {
-            self.refuse_roughness_beside_jkr(losses)?;
+        (TangentialKind::MicroSlip, friction) => {
+            let missing = || Problem::MissingMaterial { sphere: true, surface: true, reader: Some(reader) };
+            let stiffness_ratio = pair.ok_or_else(missing)?.stiffness_ratio()?;
+            friction.map_or(Along::NotGiven, |friction| Along::MicroSlip { friction, stiffness_ratio })
         }
-        let given = self.loss_keys()?;
-        let number = |key: &str| match key {
-            "adhesion_damping" => numbers.adhesion_damping,
-            "hertz_damping" => numbers.hertz_damping,
-            _ => given.iter().find(|(name, _)| *name == key).and_then(|(_, value)| *value),
-        };
-        let inputs = Inputs::new(pair, numbers.roughness_factor, &number);
-        let terms = losses.iter().map(|loss| loss.compile(&inputs)).collect::<Result<Vec<_>, _>>()?;
-        Ledger::new(terms).map_err(|TwoOfAKind(first, second)| super::normal::two_of_a_kind(first, second))
-    }
-
-    /// Numbers that single losses read.
-    fn loss_keys(&self) -> Result<[(&'static str, Option<f64>); 3], SpecError> {
-        let pressure = "a positive pressure is wanted";
-        let index = "Meyer's index lies between 0.5 and 3 (2 without, 2.5 with full work hardening)";
-        let speed = "a positive speed is wanted";
-        Ok([
-            ("limiting_pressure", checked(&self.limiting_pressure, "limiting_pressure", |p| p.0, positive, pressure)?),
-            ("yield_velocity", checked(&self.yield_velocity, "yield_velocity", |v| v.0, positive, speed)?),
-            ("meyer_index", checked(&self.meyer_index, "meyer_index", |n| n.0, |n| n > 0.5 && n < 3.0, index)?),
-        ])
-    }
-
-    fn refuse_roughness_beside_jkr(&self, losses: &[Loss]) -> Result<(), SpecError> {
-        let span = self.roughness_factor.as_ref().map(|a| &a.span).or(self.roughness.as_ref().map(|a| &a.span));
-        match span {
-            Some(span) if !losses.contains(&Loss::AdhesionDamping) => {
-                Err(SpecError::new("a roughness factor beside adhesion-jkr, which has none in it")
-                    .help("leave roughness_factor and roughness out, or use adhesion-work")
-                    .at(span.clone()))
-            }
-            _ => Ok(()),
+        // enough for impacts without slip; others are refused when they happen
+        (TangentialKind::Rolling, None) => Along::NotGiven,
+        (TangentialKind::Constant | TangentialKind::ByAngle, _) => {
+            let curve = given_curve(&b.tangential_restitution, Key::TangentialRestitution, reader)?;
+            let constant = kind == TangentialKind::Constant;
+            form_fits(constant, &curve, Key::Tangential, Key::TangentialRestitution)?;
+            Along::Curve(curve)
         }
+    })
+}
+
+/// A `constant` law takes a number, a `by-angle` law a curve.
+fn form_fits(constant: bool, curve: &Curve, law: Key, key: Key) -> Result<(), LawError> {
+    if constant == matches!(curve, Curve::Constant(_)) {
+        return Ok(());
     }
+    let reader = match (law, constant) {
+        (Key::Normal, true) => Choice::Normal(NormalKind::Constant),
+        (Key::Normal, false) => Choice::Normal(NormalKind::ByAngle),
+        (_, true) => Choice::Tangential(TangentialKind::Constant),
+        (_, false) => Choice::Tangential(TangentialKind::ByAngle),
+    };
+    Err(Problem::CurveForm { law, curve: key, reader }.into())
+}
+
+fn given_curve(given: &Option<Curve>, key: Key, reader: Choice) -> Result<Curve, LawError> {
+    given.clone().ok_or_else(|| Problem::MissingKey { key, reader: Some(reader) }.into())
 }

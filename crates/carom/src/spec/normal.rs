@@ -1,13 +1,13 @@
 //! `normal = "ea"`, or a list of losses.
 
 use super::values;
-use crate::error::SpecError;
+use crate::error::{LawError, Problem};
 use crate::normal::Loss;
-use serde::de::{self, Deserialize, Deserializer, SeqAccess, Visitor};
-use std::fmt;
+use alloc::vec::Vec;
 
 /// Normal laws by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum NormalKind {
     /// `ea`: adhesion work with both dampings.
     Ea,
@@ -17,6 +17,8 @@ pub enum NormalKind {
     ThorntonNing,
     /// `tabor`: Tabor's plastic loss alone.
     Tabor,
+    /// `dahneke`: a given restitution with an adhesion well.
+    Dahneke,
     /// `constant`
     Constant,
     /// `by-angle`
@@ -27,13 +29,13 @@ pub enum NormalKind {
 
 values::names! {
     NormalKind, "normal law",
-    "ea" => Ea, "eap" => Eap, "thornton-ning" => ThorntonNing, "tabor" => Tabor,
+    "ea" => Ea, "eap" => Eap, "thornton-ning" => ThorntonNing, "tabor" => Tabor, "dahneke" => Dahneke,
     "constant" => Constant, "by-angle" => ByAngle, "resolved" => Resolved,
 }
 
-impl std::str::FromStr for Loss {
-    type Err = SpecError;
-    fn from_str(text: &str) -> Result<Self, SpecError> {
+impl core::str::FromStr for Loss {
+    type Err = LawError;
+    fn from_str(text: &str) -> Result<Self, LawError> {
         let names: Vec<&str> = Self::ALL.iter().map(|l| l.name()).collect();
         Self::ALL.iter().copied().find(|l| l.name() == text).ok_or_else(|| values::unknown_name("loss", text, &names))
     }
@@ -48,61 +50,43 @@ pub enum NormalSpec {
     Losses(Vec<Loss>),
 }
 
-impl std::str::FromStr for NormalSpec {
-    type Err = SpecError;
-    fn from_str(text: &str) -> Result<Self, SpecError> {
+impl From<NormalKind> for NormalSpec {
+    fn from(kind: NormalKind) -> Self {
+        Self::Named(kind)
+    }
+}
+
+impl From<Vec<Loss>> for NormalSpec {
+    fn from(losses: Vec<Loss>) -> Self {
+        Self::Losses(losses)
+    }
+}
+
+impl<const N: usize> From<[Loss; N]> for NormalSpec {
+    fn from(losses: [Loss; N]) -> Self {
+        Self::Losses(losses.into())
+    }
+}
+
+impl core::str::FromStr for NormalSpec {
+    type Err = LawError;
+    fn from_str(text: &str) -> Result<Self, LawError> {
         if let Ok(loss) = text.parse::<Loss>() {
-            return Err(SpecError::new(format!("'{text}' is a loss, not a law"))
-                .help(format!("a list of losses is a law: normal = [\"{}\"]", loss.name())));
+            return Err(Problem::LossAlone { loss }.into());
         }
         text.parse().map(Self::Named)
     }
 }
 
-impl<'de> Deserialize<'de> for NormalSpec {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct NameOrList;
-        impl<'de> Visitor<'de> for NameOrList {
-            type Value = NormalSpec;
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                write!(f, "a normal law ({}) or a list of losses", NormalKind::NAMES.join(", "))
-            }
-            fn visit_str<E: de::Error>(self, v: &str) -> Result<NormalSpec, E> {
-                v.parse().map_err(E::custom)
-            }
-            fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<NormalSpec, A::Error> {
-                let mut losses = Vec::new();
-                while let Some(name) = seq.next_element::<String>()? {
-                    losses.push(name.parse().map_err(de::Error::custom)?);
-                }
-                check(&losses).map_err(de::Error::custom)?;
-                Ok(NormalSpec::Losses(losses))
-            }
-        }
-        deserializer.deserialize_any(NameOrList)
-    }
-}
-
 /// At least one loss, and no two of a kind.
-pub(super) fn check(losses: &[Loss]) -> Result<(), SpecError> {
+pub(super) fn check(losses: &[Loss]) -> Result<(), LawError> {
     if losses.is_empty() {
-        return Err(SpecError::new("an empty list of losses")
-            .help("for a lossless wall write normal = \"constant\", restitution = 1"));
+        return Err(Problem::NoLosses.into());
     }
     for (i, loss) in losses.iter().enumerate() {
         if let Some(other) = losses.iter().take(i).find(|o| o.kind() == loss.kind()) {
-            return Err(two_of_a_kind(*other, *loss));
+            return Err(Problem::LossesOverlap { first: *other, second: *loss }.into());
         }
     }
     Ok(())
-}
-
-/// Two losses that would take the same energy.
-pub(super) fn two_of_a_kind(first: Loss, second: Loss) -> SpecError {
-    let both = if first == second {
-        format!("'{}' twice", first.name())
-    } else {
-        format!("both '{}' and '{}'", first.name(), second.name())
-    };
-    SpecError::new(format!("{both}: the same energy would be counted twice")).help(format!("keep one {}", first.kind()))
 }

@@ -1,8 +1,7 @@
 //! Small value types of the text form.
 
-use serde::de::{self, Deserialize, Deserializer, Visitor};
-use std::fmt;
-use std::ops::{Deref, Range};
+use alloc::borrow::ToOwned;
+use core::ops::{Deref, Range};
 
 /// A value and where it was written (bytes of the text), if it came from one.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,8 +25,10 @@ impl<T> Deref for At<T> {
     }
 }
 
-impl<'de, T: Deserialize<'de>> Deserialize<'de> for At<T> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+/// From TOML, with the place. (A law itself reads from any format: [`super::LawSpec`].)
+#[cfg(feature = "toml")]
+impl<'de, T: serde::Deserialize<'de>> serde::Deserialize<'de> for At<T> {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let spanned = toml::Spanned::<T>::deserialize(deserializer)?;
         let span = Some(spanned.span());
         Ok(Self { value: spanned.into_inner(), span })
@@ -38,7 +39,7 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for At<T> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CurvatureRadius(pub f64);
 
-impl std::str::FromStr for CurvatureRadius {
+impl core::str::FromStr for CurvatureRadius {
     type Err = crate::units::UnitError;
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         match text.trim() {
@@ -48,33 +49,13 @@ impl std::str::FromStr for CurvatureRadius {
     }
 }
 
-impl<'de> Deserialize<'de> for CurvatureRadius {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Radius;
-        impl Visitor<'_> for Radius {
-            type Value = CurvatureRadius;
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a radius of curvature such as \"5 mm\", or \"inf\" for a flat surface")
-            }
-            fn visit_str<E: de::Error>(self, v: &str) -> Result<CurvatureRadius, E> {
-                v.parse().map_err(E::custom)
-            }
-            fn visit_f64<E: de::Error>(self, v: f64) -> Result<CurvatureRadius, E> {
-                if v.is_nan() { Err(E::custom("NaN is no radius of curvature")) } else { Ok(CurvatureRadius(v)) }
-            }
-            fn visit_i64<E: de::Error>(self, v: i64) -> Result<CurvatureRadius, E> {
-                Ok(CurvatureRadius(v as f64))
-            }
-        }
-        deserializer.deserialize_any(Radius)
-    }
-}
-
-/// Makes an enum readable by name, from TOML and from a command line, with "did you mean".
+/// Makes an enum readable by name, from texts and from a command line, with "did you mean".
 macro_rules! names {
     ($type:ty, $what:literal, $($name:literal => $variant:ident),* $(,)?) => {
         impl $type {
-            /// All names, in the order of the documentation.
+            /// All of them, in the order of the documentation.
+            pub const ALL: &'static [Self] = &[$(Self::$variant),*];
+            /// All names, likewise.
             pub const NAMES: &'static [&'static str] = &[$($name),*];
 
             /// Its name.
@@ -83,9 +64,9 @@ macro_rules! names {
             }
         }
 
-        impl std::str::FromStr for $type {
-            type Err = $crate::error::SpecError;
-            fn from_str(text: &str) -> Result<Self, $crate::error::SpecError> {
+        impl core::str::FromStr for $type {
+            type Err = $crate::error::LawError;
+            fn from_str(text: &str) -> Result<Self, $crate::error::LawError> {
                 match text {
                     $($name => Ok(Self::$variant),)*
                     other => Err($crate::spec::values::unknown_name($what, other, Self::NAMES)),
@@ -93,15 +74,17 @@ macro_rules! names {
             }
         }
 
+        #[cfg(feature = "serde")]
         impl serde::Serialize for $type {
             fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
                 serializer.serialize_str(self.name())
             }
         }
 
+        #[cfg(feature = "serde")]
         impl<'de> serde::Deserialize<'de> for $type {
             fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-                let text = <std::borrow::Cow<'de, str>>::deserialize(deserializer)?;
+                let text = <alloc::borrow::Cow<'de, str>>::deserialize(deserializer)?;
                 text.parse().map_err(serde::de::Error::custom)
             }
         }
@@ -109,8 +92,7 @@ macro_rules! names {
 }
 pub(crate) use names;
 
-pub(crate) fn unknown_name(what: &str, wrong: &str, names: &[&str]) -> crate::error::SpecError {
-    let near = crate::error::did_you_mean(wrong, names.iter().copied()).map_or(String::new(), |s| format!("{s} "));
-    crate::error::SpecError::new(format!("unknown {what} '{wrong}'"))
-        .help(format!("{near}known are {}", names.join(", ")))
+pub(crate) fn unknown_name(what: &'static str, wrong: &str, names: &[&str]) -> crate::error::LawError {
+    let known = names.iter().map(|n| (*n).to_owned()).collect();
+    crate::error::Problem::UnknownName { what, name: wrong.to_owned(), known }.into()
 }

@@ -1,11 +1,11 @@
-//! A law back into its text form: what is written here, [`super::parse_named_law`] reads again. Quantities are bare SI numbers.
+//! A law into its text form and into any serde format, and back. Quantities are bare SI numbers.
 
-use super::{At, CurvatureRadius, CurveSpec, LawSpec, NormalSpec};
-use crate::error::SpecError;
+use super::{At, CurvatureRadius, CurveSpec, Key, LawSpec, NormalSpec, Value};
 use crate::material::MaterialRef;
+use serde::de::{Deserialize, Deserializer, Error as _};
 use serde::{Serialize, Serializer};
-use std::collections::BTreeMap;
 
+#[cfg(feature = "toml")]
 impl LawSpec {
     /// The law as a text with one table, `[law.NAME]`.
     ///
@@ -18,15 +18,46 @@ impl LawSpec {
     /// let text = law.to_toml("glass")?;
     /// assert!(text.starts_with("[law.glass]\nsphere = \"copper\"\n") && text.contains("hertz_damping = 0.007"));
     /// assert_eq!(parse_named_law(&text, "glass")?.to_toml("glass")?, text);
-    /// # Ok::<(), carom::SpecError>(())
+    /// # Ok::<(), carom::LawError>(())
     /// ```
-    pub fn to_toml(&self, name: &str) -> Result<String, SpecError> {
+    pub fn to_toml(&self, name: &str) -> Result<String, crate::LawError> {
+        use std::collections::BTreeMap;
         #[derive(Serialize)]
         struct File<'a> {
             law: BTreeMap<&'a str, &'a LawSpec>,
         }
         let file = File { law: BTreeMap::from([(name, self)]) };
-        toml::to_string(&file).map_err(|e| SpecError::new(format!("law {name}: {e}")))
+        toml::to_string(&file).map_err(|e| crate::LawError::new(format!("law {name}: {e}")))
+    }
+}
+
+/// From any format; places are known only to [`super::parse_law`] and its like.
+impl<'de> Deserialize<'de> for LawSpec {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        match Value::deserialize(deserializer)? {
+            Value::Table(entries) => Self::from_entries(&entries).map_err(D::Error::custom),
+            other => Err(D::Error::custom(other.unfit("law", "a table of a law's keys"))),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for CurveSpec {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let value = Value::deserialize(deserializer)?;
+        Self::from_value(Key::Restitution, &value).map_err(D::Error::custom)
+    }
+}
+
+impl<'de> Deserialize<'de> for CurvatureRadius {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        use super::written::Written as _;
+        Self::read(Key::SurfaceCurvature, &Value::deserialize(deserializer)?).map_err(D::Error::custom)
+    }
+}
+
+impl Serialize for Key {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name())
     }
 }
 
@@ -38,7 +69,8 @@ impl<T: Serialize> Serialize for At<T> {
 
 impl Serialize for CurvatureRadius {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_f64(self.0)
+        // not every format has infinity
+        if self.0 == f64::INFINITY { serializer.serialize_str("inf") } else { serializer.serialize_f64(self.0) }
     }
 }
 

@@ -2,10 +2,13 @@
 
 use super::Dimension;
 use crate::math;
+use alloc::borrow::ToOwned;
+use alloc::string::String;
+use alloc::vec::Vec;
+use core::fmt;
 
 /// A text that is not the wanted quantity. `at` is the character (0-based) where reading stopped.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("\"{text}\": {message} (character {}); {} {what} is wanted, such as \"{example}\"", at + 1, article(what))]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnitError {
     /// The text as given.
     pub text: String,
@@ -17,6 +20,16 @@ pub struct UnitError {
     pub what: &'static str,
     /// A text that would be right.
     pub example: &'static str,
+}
+
+impl core::error::Error for UnitError {}
+
+impl fmt::Display for UnitError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { text, at, message, what, example } = self;
+        let article = article(what);
+        write!(f, "\"{text}\": {message} (character {}); {article} {what} is wanted, such as \"{example}\"", at + 1)
+    }
 }
 
 /// The article that goes with a kind of quantity.
@@ -49,9 +62,9 @@ const UNITS: &[(&str, f64, i32, Dimension, bool)] = &[
     ("eV", 1.602_176_634, -19, [2, 1, -2, 0], true),
     ("L", 1.0, -3, [3, 0, 0, 0], true),
     ("rad", 1.0, 0, NUMBER, true),
-    ("deg", std::f64::consts::PI / 180.0, 0, NUMBER, false),
-    ("°", std::f64::consts::PI / 180.0, 0, NUMBER, false),
-    ("rpm", std::f64::consts::TAU / 60.0, 0, [0, 0, -1, 0], false),
+    ("deg", core::f64::consts::PI / 180.0, 0, NUMBER, false),
+    ("°", core::f64::consts::PI / 180.0, 0, NUMBER, false),
+    ("rpm", core::f64::consts::TAU / 60.0, 0, [0, 0, -1, 0], false),
     ("%", 1.0, -2, NUMBER, false),
     ("min", 60.0, 0, [0, 0, 1, 0], false),
     ("h", 3600.0, 0, [0, 0, 1, 0], false),
@@ -68,6 +81,9 @@ const UNITS: &[(&str, f64, i32, Dimension, bool)] = &[
 ];
 
 const PREFIXES: &[(&str, i32)] = &[
+    ("z", -21),
+    ("a", -18),
+    ("f", -15),
     ("p", -12),
     ("n", -9),
     ("u", -6),
@@ -210,11 +226,21 @@ fn product(chars: &[char], mut i: usize) -> Result<Product, (usize, String)> {
 }
 
 fn unknown(name: &str) -> String {
-    let known = UNITS.iter().map(|u| u.0);
-    match known.map(|u| (strsim::damerau_levenshtein(u, name), u)).min() {
-        Some((d, u)) if d == 1 && name.len() > 1 => format!("unknown unit '{name}', did you mean '{u}'?"),
-        _ => format!("unknown unit '{name}'"),
+    let near = |u: &&str| name.len() > 1 && distance_is_one(u, name);
+    match UNITS.iter().map(|u| u.0).filter(near).min() {
+        Some(u) => format!("unknown unit '{name}', did you mean '{u}'?"),
+        None => format!("unknown unit '{name}'"),
     }
+}
+
+#[cfg(feature = "std")]
+fn distance_is_one(a: &str, b: &str) -> bool {
+    strsim::damerau_levenshtein(a, b) == 1
+}
+
+#[cfg(not(feature = "std"))]
+fn distance_is_one(_: &str, _: &str) -> bool {
+    false
 }
 
 /// One unit with its exponent: `m3`, `m^3`, `m³`, `s-1`.

@@ -22,10 +22,10 @@ fn common_texts_are_exact() {
     assert_eq!("7200 1/h".parse(), Ok(Frequency(2.0)));
     assert_eq!("0.8".parse(), Ok(Number(0.8)));
     assert_eq!("2".parse(), Ok(Speed(2.0)));
-    assert_eq!(("180 deg".parse::<Angle>().map(|a| a.0)), Ok(std::f64::consts::PI));
+    assert_eq!(("180 deg".parse::<Angle>().map(|a| a.0)), Ok(core::f64::consts::PI));
 }
 
-fn complaint<T: std::str::FromStr<Err = UnitError> + std::fmt::Debug>(text: &str) -> (usize, String) {
+fn complaint<T: core::str::FromStr<Err = UnitError> + core::fmt::Debug>(text: &str) -> (usize, String) {
     let e = text.parse::<T>().expect_err("should be refused");
     (e.at, e.to_string())
 }

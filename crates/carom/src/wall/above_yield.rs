@@ -6,7 +6,9 @@ use crate::math::sqrt;
 use crate::normal::plastic::Kadomtsev;
 use crate::normal::{Ledger, NormalLaw, Term};
 use crate::pair::{Body, Strength, StrengthSource};
-use std::fmt;
+use alloc::borrow::ToOwned;
+use alloc::string::String;
+use core::fmt;
 
 /// An impact of a law without a plastic loss above the yield velocity of its materials. Its `Display` is a sentence.
 #[derive(Clone, Debug, PartialEq)]

@@ -61,7 +61,7 @@ impl WallLaw {
         let size = self.size(diameter, density)?;
         let Some(friction) = self.tangential().friction() else { return Ok(None) };
         if friction <= 0.0 {
-            return Ok(Some(std::f64::consts::FRAC_PI_2));
+            return Ok(Some(core::f64::consts::FRAC_PI_2));
         }
         // sliding to the end ⇔ f(1 + e)v_n < (2/7)(1 + β₀)v_t
         let excess = |angle: f64| {
@@ -74,7 +74,7 @@ impl WallLaw {
                 Tangential::Restitution(_) | Tangential::NotGiven => 0.0,
             }
         };
-        Ok(Some(sign_change(1e-9, std::f64::consts::FRAC_PI_2, excess)))
+        Ok(Some(sign_change(1e-9, core::f64::consts::FRAC_PI_2, excess)))
     }
 
     /// Tabor's parameter, its verdict and the adhesion parameter; `None` without materials that have a work of adhesion.

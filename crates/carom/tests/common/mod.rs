@@ -18,14 +18,15 @@ pub fn law(text: &str) -> WallLaw {
 }
 
 const STEEL: &str = "sphere = \"stainless-steel\"\nsurface = \"silicon\"\nroughness_factor = 0.15\n";
-const ALUMINA: &str = "sphere = \"aluminium-oxide\"\nsurface = \"aluminium-gorham-kharaz\"\nwork_of_adhesion = 0.5\n";
+const ALUMINA: &str = "sphere = \"aluminium-oxide\"\nsurface = \"aluminium-gorham-kharaz\"\n";
 /// What micro-slip needs beside a table: two rubbery bodies, nearly incompressible, so that κ is near its least.
 const BARE: &str = "sphere = \"rho=1100,E=5MPa,nu=0.48\"\nsurface = \"E=3MPa,nu=0.49\"\n";
 
 /// Normal laws of every kind, without a tangential law.
 pub fn normal_laws() -> Vec<String> {
     let steel = |rest: &str| format!("{STEEL}{rest}\n");
-    let alumina = |rest: &str| format!("{ALUMINA}{rest}\n");
+    let alumina = |rest: &str| format!("{ALUMINA}work_of_adhesion = 0.5\n{rest}\n");
+    let dry = |rest: &str| format!("{ALUMINA}{rest}\n");
     let table = |rest: &str| format!("{BARE}{rest}\n");
     vec![
         steel("normal = \"ea\""),
@@ -34,13 +35,13 @@ pub fn normal_laws() -> Vec<String> {
         steel("normal = [\"adhesion-damping\", \"hertz-damping\"]\nadhesion_damping = 1.3\nhertz_damping = 0.01"),
         alumina("normal = \"eap\""),
         alumina("normal = \"eap\"\nhertz_damping = 0.001\nsurface_curvature = \"-20 mm\""),
-        alumina("normal = [\"plastic-kadomtsev\"]"),
+        dry("normal = [\"plastic-kadomtsev\"]"),
         alumina("normal = \"thornton-ning\""),
         alumina("normal = [\"adhesion-work\", \"plastic-thornton-ning\", \"hertz-damping\"]\nhertz_damping = 0.002"),
-        alumina("normal = \"tabor\"\nyield_velocity = 0.09\nmeyer_index = 2.29"),
+        dry("normal = \"tabor\"\nyield_velocity = 0.09\nmeyer_index = 2.29"),
         alumina("normal = [\"plastic-tabor\", \"adhesion-jkr\"]\nyield_velocity = 0.09\nmeyer_index = 2.29"),
         alumina("normal = [\"plastic-bons\", \"adhesion-work\"]"),
-        alumina("normal = [\"plastic-bons\", \"hertz-damping\"]\nhertz_damping = 0.002"),
+        dry("normal = [\"plastic-bons\", \"hertz-damping\"]\nhertz_damping = 0.002"),
         alumina("normal = [\"plastic-bons\", \"adhesion-jkr\"]\nplastic_constant = \"3 MPa\""),
         table("normal = \"constant\"\nrestitution = 0.7"),
         table("normal = \"by-angle\"\nrestitution = \"grant-tabakoff\""),

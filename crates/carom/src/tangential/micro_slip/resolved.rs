@@ -11,6 +11,9 @@
 //! **Discretisation.** The springs are the positions where the contact's edge stands at the steps' times, so that each one meets and
 //! leaves the wall exactly at a step; between them σ is linear in ξ², as its bound is; time goes by leapfrog (slip at the half steps).
 //! Second order in the number of steps, which is also the number of springs.
+#[cfg(not(feature = "std"))]
+use crate::math::Plainly as _;
+use alloc::vec::Vec;
 
 /// Duration of the approach, ∫₀¹ dy/√(1 − y^{5/2}) = (2/5)B(2/5, 1/2).
 const APPROACH: f64 = 1.471_637_592_162_352_3;
@@ -58,9 +61,9 @@ pub fn follow(slip: f64, stiffness_ratio: f64, restitution: f64, steps: usize, m
         stretch[edge] = 0.0;
         let area: f64 = (0..edge).map(|j| panel([edges[j], edges[j + 1]], [stretch[j], stretch[j + 1]])).sum();
         let share = match i.cmp(&steps) {
-            std::cmp::Ordering::Less => 1.0,
-            std::cmp::Ordering::Equal => 0.5 * (1.0 + restitution),
-            std::cmp::Ordering::Greater => restitution,
+            core::cmp::Ordering::Less => 1.0,
+            core::cmp::Ordering::Equal => 0.5 * (1.0 + restitution),
+            core::cmp::Ordering::Greater => restitution,
         };
         let force = 15.0 / 8.0 * area;
         total += share * force * h;

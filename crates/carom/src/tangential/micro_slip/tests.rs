@@ -20,7 +20,7 @@ fn grid(slips: u32, mut visit: impl FnMut(f64, f64, f64)) {
 /// of a lossless impact without spin.
 fn plain_integration(incidence: f64, friction: f64, springs: usize, steps: usize) -> f64 {
     let (radius, density, speed) = (2.5e-3, 4000.0, 3.9);
-    let mass = 4.0 / 3.0 * std::f64::consts::PI * density * f64::powi(radius, 3);
+    let mass = 4.0 / 3.0 * core::f64::consts::PI * density * f64::powi(radius, 3);
     let shear = |e: f64, nu: f64| e / (2.0 * (1.0 + nu));
     let (alumina, glass) = ((380e9, 0.23), (70e9, 0.25));
     let plane = |(e, nu): (f64, f64)| (1.0 - nu * nu) / e;
@@ -139,7 +139,7 @@ fn the_closed_law_is_near_the_integration_everywhere() {
 
 #[test]
 fn the_table_is_what_its_program_makes() {
-    let node = |i: usize, n: usize| -(std::f64::consts::PI * (i as f64 + 0.5) / n as f64).cos();
+    let node = |i: usize, n: usize| -(core::f64::consts::PI * (i as f64 + 0.5) / n as f64).cos();
     for (k, j, i) in
         [(0, 0, 0), (0, 3, 15), (4, 0, 15), (4, 3, 0), (2, 2, 3), (1, 1, 4), (3, 2, 6), (2, 3, 8), (4, 1, 11)]
     {
