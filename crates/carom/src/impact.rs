@@ -34,6 +34,7 @@ impl Impact {
 
 /// Sticks or bounces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "kebab-case"))]
 pub enum Fate {
     /// It leaves the wall.
     Rebound,
@@ -54,6 +55,7 @@ impl Fate {
 /// Where the incident kinetic energy went: fractions of the kinetic energy relative to the wall, translation plus spin.
 /// They are ≥ 0 and sum to 1 (give or take rounding).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Energy {
     /// Work of adhesion.
     pub adhesion: f64,
@@ -91,6 +93,7 @@ impl Energy {
 
 /// How the sphere leaves.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Outcome {
     /// Sticks or bounces.
     pub fate: Fate,
@@ -118,7 +121,7 @@ pub struct Outcome {
 pub enum ImpactError {
     /// The sphere does not move towards the wall.
     NotApproaching,
-    /// The diameter is not between 0.1 nm and 10 m.
+    /// The diameter is not between 0.1 nm and 1 m.
     Diameter,
     /// The density is not positive, or not within a factor of 1000 of the law's sphere.
     Density,
@@ -139,7 +142,7 @@ impl core::fmt::Display for ImpactError {
             Self::NotApproaching => {
                 "the sphere does not approach the wall: the velocity relative to it, along the normal, must be negative"
             }
-            Self::Diameter => "the diameter must lie between 1e-10 m and 10 m",
+            Self::Diameter => "the diameter must lie between 1e-10 m and 1 m",
             Self::Density => "the density must be positive and within a factor of 1000 of the law's sphere",
             Self::NotFinite => {
                 "velocities and spins must be finite and below 1e9 m/s at the surface, the normal finite and not zero, draws in [0, 1)"
