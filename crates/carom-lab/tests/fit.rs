@@ -102,8 +102,7 @@ fn a_parameter_at_its_bound_has_no_error_and_lets_go_again() {
     // held away from the best value by the user's own bounds
     let free = [Free { parameter: RoughnessFactor, bounds: 0.2..=0.5 }];
     let library = Library::builtin();
-    let fit =
-        carom_lab::fit::fit(&law("normal = \"ea\"\n"), &free, &data, library, &Options::default()).expect("fits");
+    let fit = carom_lab::fit::fit(&law("normal = \"ea\"\n"), &free, &data, library, &Options::default()).expect("fits");
     assert!(fit.parameters[0].at_bound && fit.parameters[0].value == 0.2);
 }
 
