@@ -39,12 +39,17 @@ pub fn speed(text: &str) -> Result<f64, String> {
 /// A diameter, m.
 pub fn diameter(text: &str) -> Result<f64, String> {
     let Length(value) = text.parse().map_err(|e: carom::units::UnitError| e.to_string())?;
-    within(text, value, (1e-10..=10.0).contains(&value), "a diameter lies between 1e-10 m and 10 m, such as 90um")
+    within(
+        text,
+        value,
+        (1e-10..=1.0).contains(&value),
+        "a diameter lies between 0.1 nm and 1 m, such as 90um; a bare number is in metres",
+    )
 }
 
 /// A diameter, m, or a distribution of it.
 pub fn diameters(text: &str) -> Result<Given, String> {
-    if text.contains('(') { study::read::<Length>(text, (1e-10, 10.0)) } else { diameter(text).map(Given::One) }
+    if text.contains('(') { study::read::<Length>(text, (1e-10, 1.0)) } else { diameter(text).map(Given::One) }
 }
 
 /// The deviation of a wall's facets: degrees, unless a unit is written. Its range is the core's.

@@ -206,3 +206,37 @@ fn a_case_without_gravity_is_told_so_once() {
         assert_eq!(String::from_utf8_lossy(&out.stderr), note);
     }
 }
+
+#[test]
+fn a_folder_with_a_run_in_it_is_left_alone_unless_told() {
+    let folder = tempfile::tempdir().expect("a folder");
+    assert!(run(folder.path(), "--out out").status.success());
+    let before = files(&folder.path().join("out"));
+    let refused = run(folder.path(), "--out out");
+    let said = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert_eq!(refused.status.code(), Some(2), "{said}");
+    assert!(said.contains("holds a finished run") && said.contains("--force") && said.lines().count() == 1, "{said}");
+    assert_eq!(files(&folder.path().join("out")), before);
+    assert_eq!(run(folder.path(), "--out out --force --resume").status.code(), Some(2));
+    assert!(run(folder.path(), "--out out --force").status.success());
+    assert_eq!(files(&folder.path().join("out")), before);
+    let new = run(folder.path(), "--out fresh --resume");
+    assert!(new.status.success());
+    assert!(String::from_utf8_lossy(&new.stderr).contains("nothing to go on with yet: starting from the beginning"));
+    assert_eq!(files(&folder.path().join("fresh")), before);
+}
+
+#[test]
+fn more_particles_than_can_be_counted_are_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let half = 1u64 << 52;
+    for (counts, code) in [([half, half + 1], 2), ([u64::MAX / 2 + 1, u64::MAX / 2 + 1], 2), ([3, 4], 0)] {
+        let injections = counts.map(|count| {
+            format!("[[injection]]\ndensity = 2500\ndiameter = \"50 um\"\nposition = [0, 1, 0]\nvelocity = [0, 0, 0]\ncount = {count}\n")
+        });
+        let case = format!("{}[run]\nuntil = \"1 ms\"\n", injections.concat());
+        std::fs::write(folder.path().join("case.toml"), case).expect("a file");
+        let out = carom(folder.path(), "run case.toml");
+        assert_eq!(out.status.code(), Some(code), "{counts:?}: {}", String::from_utf8_lossy(&out.stderr));
+    }
+}

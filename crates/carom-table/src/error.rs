@@ -43,6 +43,7 @@ pub enum TableError {
     #[error("JSON: {0}")]
     Json(#[from] serde_json::Error),
     /// The Parquet encoder failed.
+    #[cfg(feature = "parquet")]
     #[error("Parquet: {0}")]
     Parquet(#[from] parquet::errors::ParquetError),
     /// Columns, rows or arrays that belong together do not match in length, name or kind.
@@ -58,6 +59,7 @@ impl TableError {
             Self::Stream(source) => source,
             Self::Csv(e) if e.is_io_error() => e.into(),
             Self::Json(e) if e.is_io() => e.into(),
+            #[cfg(feature = "parquet")]
             Self::Parquet(e) => io::Error::other(e),
             other => return other,
         };

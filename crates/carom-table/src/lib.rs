@@ -15,6 +15,12 @@
 //! assert_eq!(table.to_csv()?, "particle,speed,fate\n1,0.1,capture\n2,0.25,rebound\n3,,rebound\n");
 //! # Ok::<(), carom_table::TableError>(())
 //! ```
+//!
+//! # Features
+//!
+//! | feature | default | what it brings |
+//! |---|---|---|
+//! | `parquet` | yes | Parquet files (`parquet`); without it they are refused by name |
 
 use std::path::Path;
 use std::sync::Arc;
@@ -24,22 +30,30 @@ mod error;
 pub mod file;
 mod json;
 pub mod number;
+#[cfg(feature = "parquet")]
 mod parquet;
+#[cfg(feature = "parquet")]
 mod parquet_reader;
 mod reader;
+#[cfg(feature = "parquet")]
 mod row_groups;
 mod rows;
 mod text;
 mod values;
+#[cfg(not(feature = "parquet"))]
+mod without_parquet;
 mod writer;
 
 pub use error::TableError;
 pub use number::significant;
 pub use reader::TableReader;
+#[cfg(feature = "parquet")]
 pub use row_groups::{RowGroups, to_parquet};
 pub use rows::{Row, RowReader};
 pub use text::column_cells;
 pub use values::{Cell, Kind, Values};
+#[cfg(not(feature = "parquet"))]
+pub use without_parquet::{RowGroups, to_parquet};
 pub use writer::{Format, TableWriter, Target};
 
 /// A column's name, unit and kind, without values.

@@ -6,8 +6,11 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::TableError;
+#[cfg(feature = "parquet")]
 use crate::parquet_reader::ParquetDecoder;
 use crate::rows::{Row, RowReader};
+#[cfg(not(feature = "parquet"))]
+use crate::without_parquet::ParquetDecoder;
 use crate::{Cell, Field, Format, Kind, Schema, Table};
 
 /// Reads some columns of a CSV or Parquet file, a batch of rows at a time; memory stays flat.

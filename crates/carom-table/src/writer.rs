@@ -7,7 +7,10 @@ use crate::TableError;
 use crate::csv::CsvEncoder;
 use crate::file::{self, NewFile};
 use crate::json::JsonEncoder;
+#[cfg(feature = "parquet")]
 use crate::parquet::ParquetEncoder;
+#[cfg(not(feature = "parquet"))]
+use crate::without_parquet::ParquetEncoder;
 use crate::{Schema, Table, check_schema};
 
 /// A file format for tables.
@@ -22,14 +25,24 @@ pub enum Format {
 }
 
 impl Format {
+    /// Whether this build reads and writes the format.
+    #[must_use]
+    pub fn is_built(self) -> bool {
+        self != Self::Parquet || cfg!(feature = "parquet")
+    }
+
     /// The format told by a path's extension: `.csv`, `.parquet` or `.json`.
     ///
     /// # Errors
-    /// [`TableError::UnknownExtension`], naming the known ones.
+    /// [`TableError::UnknownExtension`], naming the known ones; [`TableError::Feature`] where this build has no Parquet.
     pub fn from_path(path: impl AsRef<Path>) -> Result<Self, TableError> {
         match file::extension(path.as_ref()).as_str() {
             "csv" => Ok(Self::Csv),
-            "parquet" => Ok(Self::Parquet),
+            "parquet" if Self::Parquet.is_built() => Ok(Self::Parquet),
+            "parquet" => {
+                let path = path.as_ref().to_path_buf();
+                Err(TableError::Feature { path, format: "Parquet", feature: "parquet" })
+            }
             "json" => Ok(Self::Json),
             _ => Err(TableError::UnknownExtension {
                 path: path.as_ref().to_path_buf(),

@@ -1,12 +1,20 @@
 //! What a step computes has the same bits on every machine: one fingerprint over flows, forces, draws and starts.
 
+use carom::instructions::InstructionSet;
+use carom::material::Library;
+use carom_track::Case;
 use carom_track::flow::{Channel, Flow, Fluid, Pipe, Profile, SlotJet};
 use carom_track::force::{Drag, Forces, NearWall, RandomWalk, Slip, Sphere};
 use carom_track::injection::{Amount, By, Diameter, Injection, Plan, Sizes, Source, Start, Window};
+use carom_track::record::{End, ImpactRecord, Sink};
+use carom_track::tracker::Particle;
+use std::path::Path;
 
 /// FNV-1a over the bits.
 fn fingerprint(values: impl IntoIterator<Item = f64>) -> u64 {
-    let bytes = values.into_iter().flat_map(|v| v.to_bits().to_le_bytes());
+    // a NaN's sign and payload are the processor's own affair
+    let bits = |v: f64| if v.is_nan() { 1 } else { v.to_bits() };
+    let bytes = values.into_iter().flat_map(|v| bits(v).to_le_bytes());
     bytes.fold(0xcbf2_9ce4_8422_2325, |hash, b| (hash ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3))
 }
 
@@ -64,5 +72,52 @@ fn starts_and_steps_have_fixed_bits() {
     let (starts, steps) = (injected(), stepped());
     assert!(starts.iter().chain(&steps).all(|v| v.is_finite()));
     // these change only when a formula does, and then on every machine alike
-    assert_eq!([fingerprint(starts), fingerprint(steps)], [0x3c6c_c139_68d0_30d9, 0x61c1_6fd0_f4e3_da29]);
+    assert_eq!([fingerprint(starts), fingerprint(steps)], [0x3c6c_c139_68d0_30d9, 0xc028_6fef_569f_eec1]);
+}
+
+/// What was told, particle by particle.
+struct Told(Vec<Vec<f64>>);
+
+impl Sink for Told {
+    fn start(&mut self, _: &Particle) -> bool {
+        false
+    }
+    fn impact(&mut self, i: &ImpactRecord) {
+        let all = &mut self.0[i.particle as usize];
+        all.extend([i.time, i.normal_speed_in, i.tangential_speed_in, i.spin_in, i.restitution, i.impulse_ratio]);
+        all.extend([i.normal_speed_out, i.tangential_speed_out, i.spin_out, i.wall as f64]);
+        all.extend(i.position.iter().chain(&i.normal));
+        all.extend(i.energy.named().map(|(_, share)| share));
+    }
+    fn point(&mut self, _: u64, _: f64, _: [f64; 3], _: [f64; 3], _: [f64; 3]) {}
+    fn end(&mut self, end: &End) {
+        let all = &mut self.0[end.particle.number as usize];
+        all.extend([end.time, end.steps as f64, end.particle.mass()]);
+        all.extend(end.position.iter().chain(&end.velocity).chain(&end.spin));
+    }
+    fn stalled(&mut self) {}
+}
+
+/// These change only when a formula or the walk does, and then on every machine alike.
+const FLIGHTS: [u64; 3] = [0x30f0_19cb_d921_923c, 0xf9e3_8ff6_df97_c795, 0x8f36_94ca_bf8f_4d05];
+
+#[test]
+fn flights_have_fixed_bits_on_every_instruction_set() {
+    let cases = [
+        ("pipe", include_str!("bits/pipe.toml")),
+        ("plate", include_str!("bits/plate.toml")),
+        ("box", include_str!("bits/box.toml")),
+    ];
+    for set in InstructionSet::available() {
+        let got = cases.map(|(name, text)| {
+            let case = Case::from_toml(text, Path::new(name), Library::builtin())
+                .unwrap_or_else(|e| panic!("{}", e.located(name, text)));
+            let mut told = Told(vec![Vec::new(); case.count() as usize]);
+            case.tracker().run_on(set, &mut (0..case.count()).filter_map(|n| case.particle(n)), &mut told);
+            let values = told.0.concat();
+            println!("{name} on {set:?}: {} numbers", values.len());
+            fingerprint(values)
+        });
+        assert_eq!(got, FLIGHTS, "{set:?}: {got:#018x?}");
+    }
 }

@@ -118,7 +118,7 @@ pub struct Outcome {
 pub enum ImpactError {
     /// The sphere does not move towards the wall.
     NotApproaching,
-    /// The diameter is not between 0.1 nm and 10 m.
+    /// The diameter is not between 0.1 nm and 1 m.
     Diameter,
     /// The density is not positive, or not within a factor of 1000 of the law's sphere.
     Density,
@@ -139,7 +139,7 @@ impl core::fmt::Display for ImpactError {
             Self::NotApproaching => {
                 "the sphere does not approach the wall: the velocity relative to it, along the normal, must be negative"
             }
-            Self::Diameter => "the diameter must lie between 1e-10 m and 10 m",
+            Self::Diameter => "the diameter must lie between 1e-10 m and 1 m",
             Self::Density => "the density must be positive and within a factor of 1000 of the law's sphere",
             Self::NotFinite => {
                 "velocities and spins must be finite and below 1e9 m/s at the surface, the normal finite and not zero, draws in [0, 1)"

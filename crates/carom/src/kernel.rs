@@ -75,7 +75,7 @@ impl Kernel {
     /// A diameter, density or curvature out of range.
     #[inline(always)]
     pub fn size<F: Fma>(&self, f: F, diameter: f64, density: Option<f64>) -> Result<Size, ImpactError> {
-        if !(1e-10..=10.0).contains(&diameter) {
+        if !(1e-10..=1.0).contains(&diameter) {
             return Err(ImpactError::Diameter);
         }
         let radius = 0.5 * diameter;

@@ -21,6 +21,35 @@
 //! Where to look: one file per mechanism in [`normal`] and [`tangential`]; the equation of motion in [`resolved`]; materials and their
 //! sources in [`material`]; rough walls that scatter in
 //! [`scatter`]; what removes a captured sphere in [`removal`]; what a result's doubts mean in [`validity`]. SI units throughout; angles from the surface.
+//!
+//! # How do I ...
+//!
+//! | ... | look at |
+//! |---|---|
+//! | ask about one impact | [`WallLaw::impact`], [`Impact`], [`Outcome`] |
+//! | ask about many | [`batch`] |
+//! | build a law from typed values | [`WallLaw::builder`] |
+//! | read a law from text | [`spec`] |
+//! | word an error for my own users | [`LawError`]: kind, key, value and place as data |
+//! | draw values from distributions, find a sticking probability | [`study`] |
+//! | add a material, or see where a value comes from | [`material`] |
+//! | find the capture velocity, the critical angle, the yield velocity | [`WallLaw::window`], [`WallLaw::critical_angle`], [`WallLaw::yield_velocity`] |
+//! | know what a result's warnings mean | [`validity`] |
+//! | add adhesion's roughness factor from measured roughness | [`roughness`] |
+//! | treat a rough wall that scatters | [`scatter`] |
+//! | know what takes a captured sphere off again | [`removal`] |
+//! | see force and overlap during the contact | [`resolved`] |
+//! | add a loss | [`normal`], and the recipe in the repository's guide for contributors |
+//!
+//! # Features
+//!
+//! | feature | default | what it brings |
+//! |---|---|---|
+//! | `toml` | yes | laws and materials from text, the library of materials; with it `serde` and `std` |
+//! | `serde` | by `toml` | laws from and into any serde format, outcomes into one; with it `std` |
+//! | `std` | by `toml` | the processor's instructions asked while running, the nearest name in messages |
+//!
+//! Without features the crate is `no_std` (with `alloc`) and needs `libm` alone; laws are then built by [`WallLaw::builder`].
 
 #![cfg_attr(not(feature = "std"), no_std)]
 // what depends on the platform is on no way to a result (clippy.toml)
@@ -61,6 +90,6 @@ pub use validity::Validity;
 pub use wall::{AboveYield, WallLaw};
 
 /// The examples of the crate's README are run as tests.
-#[cfg(doctest)]
+#[cfg(all(doctest, feature = "toml"))]
 #[doc = include_str!("../README.md")]
 struct Readme;

@@ -2,6 +2,7 @@
 
 mod common;
 
+use carom::batch::{Incidence, InstructionSet, Rebound};
 use carom::{Impact, Outcome, WallLaw};
 
 /// FNV-1a over 64-bit words.
@@ -110,4 +111,37 @@ fn outcomes_on_a_wall_that_scatters_have_their_bits() {
     ];
     let got: Vec<u64> = laws.iter().map(|law| hash_of([common::law(&format!("{steel}{law}"))].iter(), 60)).collect();
     assert_eq!(got, ROUGH, "{got:#x?}");
+}
+
+/// Two chunks of rows; some in the first leave the range where a fused multiply-add is exact without branches.
+fn batch_hash(set: InstructionSet) -> u64 {
+    const ROWS: usize = 131;
+    let at = |i: usize, k: usize| ((i * 7_919 + k * 104_729) % 65_521) as f64 / 65_521.0;
+    let column = |f: &dyn Fn(usize) -> f64| (0..ROWS).map(f).collect::<Vec<f64>>();
+    let incidence = Incidence {
+        normal: &column(&|i| if i == 7 { 1e-149 } else { [1e-3, 0.1, 3.0, 80.0][i % 4] * (0.1 + at(i, 1)) }),
+        tangential: &column(&|i| if i % 17 == 0 { 0.0 } else { 20.0 * (at(i, 2) - 0.3) }),
+        spin: &column(&|i| {
+            if i % 5 == 0 { 0.0 } else { [4e5, if i < 64 { 1e-300 } else { 1.0 }, 10.0][i % 3] * (at(i, 3) - 0.5) }
+        }),
+        diameter: &column(&|i| [5e-7, 1e-5, 6e-4][i % 3] * (0.1 + at(i, 4))),
+    };
+    let mut hash = Hash(0xcbf2_9ce4_8422_2325);
+    // every third combination has every normal and every tangential law
+    for (_, law) in common::all_laws().iter().step_by(3) {
+        let mut columns = [const { [0.0; ROWS] }; 5];
+        let [n, t, w, e, ratio] = &mut columns;
+        let mut rebound = Rebound { restitution: Some(e), impulse_ratio: Some(ratio), ..Rebound::new(n, t, w) };
+        law.impact_batch_on(set, &incidence, &mut rebound).expect("every row approaches");
+        columns.as_flattened().iter().for_each(|v| hash.add(*v));
+    }
+    hash.0
+}
+
+#[test]
+fn batches_have_their_bits_on_every_instruction_set() {
+    for set in InstructionSet::available() {
+        println!("{set:?}");
+        assert_eq!(batch_hash(set), 0x3029_3494_6bc6_34e1, "{set:?}");
+    }
 }

@@ -347,7 +347,12 @@ mod forms {
                 fn visit_str<E: de::Error>(self, v: &str) -> Result<RowsText, E> {
                     match v {
                         "csv" => Ok(RowsText(Some(TableFormat::Csv))),
-                        "parquet" => Ok(RowsText(Some(TableFormat::Parquet))),
+                        "parquet" if carom_table::Format::Parquet.is_built() => {
+                            Ok(RowsText(Some(TableFormat::Parquet)))
+                        }
+                        "parquet" => Err(E::custom(
+                            "this build writes no Parquet; build it with the feature `parquet`, or write \"csv\"",
+                        )),
                         _ => {
                             let near = did_you_mean(v, ["csv", "parquet"]).map_or(String::new(), |n| format!("{n} "));
                             Err(E::custom(format!(

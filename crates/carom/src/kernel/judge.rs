@@ -46,7 +46,7 @@ pub(super) fn approach(v_n: f64, incident: f64) -> Result<(), ImpactError> {
 pub(super) fn row_is_fine<F: Fma>(f: F, v_n: f64, v_t: f64, spin: f64, diameter: f64) -> bool {
     let radius = 0.5 * diameter;
     let incident = f.fma(v_n, v_n, f.fma(v_t, v_t, 0.4 * (radius * radius) * (spin * spin)));
-    (v_n > 1e-150) & (incident <= 3.0 * FASTEST * FASTEST) & (1e-10..=10.0).contains(&diameter)
+    (v_n > 1e-150) & (incident <= 3.0 * FASTEST * FASTEST) & (1e-10..=1.0).contains(&diameter)
 }
 
 /// Radius of the contact that adhesion makes without load, over the sphere's, that the contact models are trusted to: the slope of a sphere

@@ -62,7 +62,7 @@ impl Account {
 
 /// A loss mechanism, compiled for one pair of materials: plain numbers.
 ///
-/// A new mechanism is one file with a type that implements this, and one line in [`super::registry`].
+/// A new mechanism is one file with a type that implements this, and one line in `registry.rs` beside it.
 pub trait Mechanism: Copy {
     /// Its name in a law file.
     const NAME: &'static str;

@@ -281,7 +281,7 @@ law_keys! {
     /// standard deviation of the heights under the contact, nanometres, from which C_R follows
     Roughness roughness: Length => f64 {
         symbol: "σ_r", noun: "a roughness", example: "1 nm", group: SURFACES,
-        range: Range::within(0.0, 1e-6, ROUGHNESS_RIGHT), draw: Some(2),
+        range: Range::within(0.0, 1e-7, ROUGHNESS_RIGHT), draw: Some(2),
     }
     /// how C_R follows from the roughness: rabinovich, C_R = 1/(1 + 1.485 σ_r/z₀)², or fuller-tabor
     RoughnessModel roughness_model: RoughnessModel => RoughnessModel {
@@ -383,7 +383,7 @@ law_keys! {
     }
 }
 
-const ROUGHNESS_RIGHT: &str = "C_R knows asperities of nanometres, finer than the contact, up to 1 um: not the Ra of a machined surface, whose waviness is given as roughness_angle";
+const ROUGHNESS_RIGHT: &str = "C_R knows asperities of nanometres, finer than the contact, up to 100 nm: not the Ra of a machined surface, whose waviness is given as roughness_angle";
 
 impl Key {
     /// As written in a law's text.

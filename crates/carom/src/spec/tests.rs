@@ -208,7 +208,7 @@ fn fuller_and_tabors_factor_is_that_of_the_pair() {
     let theta = e_star * 0.8e-9f64.powf(1.5) / (100e-9f64.sqrt() * w);
     assert!((c_r - crate::roughness::fuller_tabor::factor(theta)).abs() < 1e-12 && c_r > 0.01 && c_r < 0.99, "{c_r}");
     assert!(factor("roughness = \"1.6 nm\"\n").0 < c_r);
-    assert_eq!(factor("roughness = \"1 um\"\n").0, 0.0);
+    assert_eq!(factor("roughness = \"100 nm\"\n").0, 0.0);
     assert_eq!(factor("roughness = \"1 nm\"\nwork_of_adhesion = 0\n").0, 1.0);
 }
 
@@ -340,6 +340,7 @@ fn implausible_inputs_are_refused_with_what_may_be_meant() {
         (format!("sphere = {{ gamma = 40 }}\n{copper}"), &["surface_energy = 40 J/m2", "40 mJ/m2"]),
         // the Ra of a machined surface
         (format!("sphere = \"copper\"\n{copper}roughness = \"1.6 um\"\n"), &["roughness = 0.0000016 m", "not the Ra"]),
+        (format!("sphere = \"copper\"\n{copper}roughness = \"0.2 um\"\n"), &["roughness = 0.0000002 m", "not the Ra"]),
         (format!("sphere = \"copper\"\n{copper}equilibrium_spacing = 0.2\n"), &["distance between atoms"]),
     ] {
         let message = complaint(&text);
