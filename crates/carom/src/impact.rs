@@ -34,6 +34,7 @@ impl Impact {
 
 /// Sticks or bounces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "kebab-case"))]
 pub enum Fate {
     /// It leaves the wall.
     Rebound,
@@ -54,6 +55,7 @@ impl Fate {
 /// Where the incident kinetic energy went: fractions of the kinetic energy relative to the wall, translation plus spin.
 /// They are ≥ 0 and sum to 1 (give or take rounding).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Energy {
     /// Work of adhesion.
     pub adhesion: f64,
@@ -91,6 +93,7 @@ impl Energy {
 
 /// How the sphere leaves.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Outcome {
     /// Sticks or bounces.
     pub fate: Fate,

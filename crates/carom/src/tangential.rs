@@ -20,6 +20,7 @@ use micro_slip::{PartialSlip, Shape};
 
 /// How the contact ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "kebab-case"))]
 pub enum Contact {
     /// Sliding to the end of contact.
     Sliding,

@@ -59,6 +59,14 @@ pub const CODES: [(&str, Validity, &str); 11] = [
     ),
 ];
 
+/// As the list of its codes.
+#[cfg(feature = "serde")]
+impl serde::Serialize for Validity {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(self.codes())
+    }
+}
+
 impl Validity {
     /// Nothing to mind.
     pub const NONE: Self = Self(0);

@@ -375,3 +375,16 @@ fn without_friction_only_what_slips_is_refused() {
         assert!(with.require_friction().is_ok());
     }
 }
+
+#[test]
+fn outcomes_are_written_in_any_format() {
+    let text = "sphere = \"copper\"\nsurface = \"aluminium\"\nnormal = \"ea\"\nfriction = 0.2\nroughness = \"1 nm\"\n";
+    let wall = parse_law(text).and_then(|l| l.compile(Library::builtin())).expect("a law");
+    let out = wall.impact(&crate::Impact::new(90e-6, [2.0, -0.5, 0.0], [0.0, 1.0, 0.0])).expect("it approaches");
+    let json: serde_json::Value = serde_json::to_value(out).expect("JSON");
+    assert_eq!((json["fate"].as_str(), json["contact"].as_str()), (Some(out.fate.name()), Some(out.contact.name())));
+    assert_eq!(json["restitution"].as_f64(), Some(out.restitution));
+    assert_eq!(json["energy"]["kept"].as_f64(), Some(out.energy.kept));
+    let codes: Vec<&str> = json["validity"].as_array().expect("a list").iter().filter_map(|c| c.as_str()).collect();
+    assert!(codes.contains(&"roughness-extrapolated") && codes == out.validity.codes().collect::<Vec<_>>());
+}
