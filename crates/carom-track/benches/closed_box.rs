@@ -28,6 +28,7 @@ impl Sink for Count {
     fn impact(&mut self, _: &ImpactRecord) {
         self.impacts += 1;
     }
+    fn contact_ended(&mut self, _: &ImpactRecord) {}
     fn point(&mut self, _: u64, _: f64, _: [f64; 3], _: [f64; 3], _: [f64; 3]) {}
     fn end(&mut self, end: &End) {
         self.ends += 1;

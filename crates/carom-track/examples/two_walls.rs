@@ -40,9 +40,14 @@ fn one(case: &CaseFile, paths: Paths) -> Result<Track> {
     track(&case.case()?, paths).pop().ok_or_else(|| "the case tracks nothing".into())
 }
 
-/// How far it gets before it stays where it is.
+/// How far it gets before it is caught or bounces no more; without adhesion and friction it slides on from there with the air.
 fn travel(case: &CaseFile) -> Result<f64> {
-    Ok(one(case, Paths::Dropped)?.end.position[0])
+    Ok(last_bounce(&one(case, Paths::Dropped)?).1)
+}
+
+/// Time and place of the last impact.
+fn last_bounce(track: &Track) -> (f64, f64) {
+    track.impacts.last().map_or((track.end.time, track.end.position[0]), |i| (i.time, i.position[0]))
 }
 
 /// How high it rises where no wall stops it.
@@ -56,7 +61,7 @@ fn reach() -> Result<()> {
 fn trajectories(out: &Path) -> Result<()> {
     let case = CaseFile::read("two-walls.toml")?;
     let runs = [("EA", one(&case, Paths::Kept)?), ("e = 1", one(&elastic(&case), Paths::Kept)?)];
-    let far = runs.iter().map(|r| r.1.end.position[0]).fold(0.0, f64::max) * 1.05;
+    let far = runs.iter().map(|r| last_bounce(&r.1).1).fold(0.0, f64::max) * 1.05;
     let mut plot = Plot::new(
         "Ag-coated glass, 70 µm, between aluminium walls",
         Axis::scaled("x", "mm", 1e3).range(0.0, far),
@@ -67,11 +72,11 @@ fn trajectories(out: &Path) -> Result<()> {
     for (name, run) in &runs {
         let end = run.end;
         println!(
-            "{name}: {} bounces, {:?} at x = {:.1} mm after {:.3} s",
+            "{name}: {} bounces, the last at x = {:.1} mm after {:.3} s; {:?}",
             run.bounces(),
-            end.fate,
-            end.position[0] * 1e3,
-            end.time
+            last_bounce(run).1 * 1e3,
+            last_bounce(run).0,
+            end.fate
         );
         for i in run.impacts.iter().take(6) {
             println!(
@@ -82,7 +87,8 @@ fn trajectories(out: &Path) -> Result<()> {
                 i.restitution
             );
         }
-        let line = Series::line(*name, run.path.iter().map(|p| p[1]), run.path.iter().map(|p| p[2]));
+        let path: Vec<_> = run.path.iter().filter(|p| p[0] <= last_bounce(run).0).collect();
+        let line = Series::line(*name, path.iter().map(|p| p[1]), path.iter().map(|p| p[2]));
         plot = plot.with(if *name == "EA" { line } else { line.dashed() });
     }
     Ok(plot.write(study::figure(out, "two-walls"))?)

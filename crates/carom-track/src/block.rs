@@ -178,6 +178,20 @@ impl Collector<'_> {
     }
 }
 
+impl Collector<'_> {
+    /// Writes a row of the table of impacts, and of the deposits.
+    fn row(&mut self, impact: &ImpactRecord) {
+        if self.wants(IMPACTS) {
+            push_impact(&mut self.tables[IMPACTS].0, impact);
+            self.added(IMPACTS);
+        }
+        if self.wants(DEPOSIT) && matches!(impact.event, Event::Capture | Event::Settle | Event::Trap) {
+            push_deposit(&mut self.tables[DEPOSIT].0, impact);
+            self.added(DEPOSIT);
+        }
+    }
+}
+
 impl Sink for Collector<'_> {
     fn start(&mut self, particle: &Particle) -> bool {
         let mass = particle.mass();
@@ -191,14 +205,13 @@ impl Sink for Collector<'_> {
         own.impacts += 1;
         let mass = own.mass;
         self.summary.impact(impact, mass);
-        if self.wants(IMPACTS) {
-            push_impact(&mut self.tables[IMPACTS].0, impact);
-            self.added(IMPACTS);
-        }
-        if self.wants(DEPOSIT) && matches!(impact.event, Event::Capture | Event::Settle | Event::Trap) {
-            push_deposit(&mut self.tables[DEPOSIT].0, impact);
-            self.added(DEPOSIT);
-        }
+        self.row(impact);
+    }
+
+    fn contact_ended(&mut self, row: &ImpactRecord) {
+        let mass = self.own(row.particle).mass;
+        self.summary.contact_ended(row, mass);
+        self.row(row);
     }
 
     fn point(&mut self, particle: u64, t: f64, x: Vec3, v: Vec3, w: Vec3) {

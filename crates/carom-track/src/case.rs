@@ -8,6 +8,7 @@ mod files;
 mod flow;
 mod injection;
 mod removal;
+mod scale;
 mod stl;
 mod text;
 mod wall;
@@ -118,6 +119,7 @@ impl Case {
         let output = read.output;
         let bins = bins(&output)?;
         notes.extend(read.forces.gravity.is_none().then(|| "no gravity: [forces] gives none".to_owned()));
+        notes.extend(scale::notes(&flow, &walls, &injections));
         Ok(Self {
             title: read.title.unwrap_or_default(),
             name: name.to_owned(),
@@ -219,7 +221,11 @@ fn settings(read: &CaseText, seed: u64, behaviors: &[Behavior]) -> Result<Settin
     };
     let settle_height = match &run.settle_height {
         None => SettleHeight::DEFAULT,
-        Some(h) => SettleHeight::Length(positive(h, "settle_height", h.value.0)?),
+        Some(h) if h.value.0 >= 0.0 && h.value.0.is_finite() => SettleHeight::Length(h.value.0),
+        Some(h) => {
+            return Err(wrong(h, format!("settle_height is {}", h.value.0))
+                .help("it must be positive, or 0 where no bounce counts as none"));
+        }
     };
     let max_steps = run.max_steps.as_ref().map_or(MAX_STEPS, |m| m.value.max(1));
     Ok(Settings { tolerance, until: until.unwrap_or(f64::INFINITY), settle_height, max_steps, seed })

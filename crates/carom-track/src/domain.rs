@@ -57,8 +57,23 @@ pub trait Domain: Sync {
         Ahead::UNKNOWN
     }
 
+    /// The edge of the piece on a path, or how much of it is no longer than a step may be; walls aside.
+    fn edge(&self, here: Self::Here, path: &Path) -> Next<Self::Here>;
+
     /// What comes first on the path of a sphere of that radius.
-    fn first(&self, here: Self::Here, path: &Path, radius: f64) -> Next<Self::Here>;
+    fn first(&self, here: Self::Here, path: &Path, radius: f64) -> Next<Self::Here> {
+        let edge = self.edge(here, path);
+        if let Next::Longest(_) = edge {
+            return edge;
+        }
+        match (edge, self.walls().first(path, radius)) {
+            (Next::Edge { theta, into }, hit) if hit.is_none_or(|h| theta < h.meeting.theta) => {
+                Next::Edge { theta, into }
+            }
+            (_, Some(hit)) => Next::Wall(hit),
+            (edge, None) => edge,
+        }
+    }
 
     /// The walls.
     fn walls(&self) -> &Walls;
@@ -152,7 +167,7 @@ impl Domain for Analytic {
         ahead
     }
 
-    fn first(&self, here: Piece, path: &Path, radius: f64) -> Next<Piece> {
+    fn edge(&self, here: Piece, path: &Path) -> Next<Piece> {
         let reach = self.flow.reach(here, path.start);
         if reach < f64::INFINITY {
             let furthest = path.points.iter().fold(0.0f64, |m, p| m.max(dot(*p, *p))).sqrt();
@@ -160,14 +175,7 @@ impl Domain for Analytic {
                 return Next::Longest(WITHIN * reach / furthest);
             }
         }
-        let hit = self.walls.first(path, radius);
-        match (self.flow.exit(here, path), hit) {
-            (Some(Exit { theta, into }), hit) if hit.is_none_or(|h| theta < h.meeting.theta) => {
-                Next::Edge { theta, into }
-            }
-            (_, Some(hit)) => Next::Wall(hit),
-            (_, None) => Next::Clear,
-        }
+        self.flow.exit(here, path).map_or(Next::Clear, |Exit { theta, into }| Next::Edge { theta, into })
     }
 
     #[inline(always)]

@@ -22,15 +22,31 @@ pub enum Fate {
     Airborne,
     /// Caught by a wall and taken off it again by the flow; where it goes then is not followed.
     Removed,
+    /// In contact with a wall and still moving along it when the run ended.
+    Sliding,
+    /// It started where a wall is, and was not followed.
+    Overlapping,
+    /// Lost in a broken mesh, in the cell it was last in.
+    Stuck,
 }
 
 impl Fate {
     /// All of them, in the order of the results.
-    pub const ALL: [Self; 6] =
-        [Self::Captured, Self::Settled, Self::Trapped, Self::Escaped, Self::Airborne, Self::Removed];
+    pub const ALL: [Self; 9] = [
+        Self::Captured,
+        Self::Settled,
+        Self::Trapped,
+        Self::Escaped,
+        Self::Airborne,
+        Self::Removed,
+        Self::Sliding,
+        Self::Overlapping,
+        Self::Stuck,
+    ];
 
     /// Those of spheres that end at a wall.
-    pub const AT_WALLS: [Self; 5] = [Self::Captured, Self::Settled, Self::Trapped, Self::Escaped, Self::Removed];
+    pub const AT_WALLS: [Self; 7] =
+        [Self::Captured, Self::Settled, Self::Trapped, Self::Escaped, Self::Removed, Self::Sliding, Self::Overlapping];
 
     /// The word in results.
     pub fn name(self) -> &'static str {
@@ -41,6 +57,9 @@ impl Fate {
             Self::Escaped => "escaped",
             Self::Airborne => "airborne",
             Self::Removed => "removed",
+            Self::Sliding => "sliding",
+            Self::Overlapping => "overlapping",
+            Self::Stuck => "stuck",
         }
     }
 }
@@ -60,11 +79,17 @@ pub enum Event {
     Escape,
     /// It would stay, but the flow takes it off again.
     Remove(Mode),
+    /// Contact motion ends: the sphere rolls off the wall.
+    RollOff,
+    /// Contact motion ends: the sphere slides off the wall.
+    SlideOff,
+    /// Contact motion ends: nothing presses the sphere against the wall any more.
+    LiftOff,
 }
 
 impl Event {
     /// All of them.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 11] = [
         Self::Rebound,
         Self::Capture,
         Self::Settle,
@@ -73,6 +98,9 @@ impl Event {
         Self::Remove(Mode::Rolling),
         Self::Remove(Mode::Sliding),
         Self::Remove(Mode::Lifting),
+        Self::RollOff,
+        Self::SlideOff,
+        Self::LiftOff,
     ];
 
     /// Its place among [`Event::ALL`].
@@ -90,9 +118,9 @@ impl Event {
             Self::Settle => "settle",
             Self::Trap => "trap",
             Self::Escape => "escape",
-            Self::Remove(Mode::Rolling) => "roll-off",
-            Self::Remove(Mode::Sliding) => "slide-off",
-            Self::Remove(Mode::Lifting) => "lift-off",
+            Self::Remove(Mode::Rolling) | Self::RollOff => "roll-off",
+            Self::Remove(Mode::Sliding) | Self::SlideOff => "slide-off",
+            Self::Remove(Mode::Lifting) | Self::LiftOff => "lift-off",
         }
     }
 }
@@ -167,6 +195,11 @@ pub trait Sink {
     fn start(&mut self, particle: &Particle) -> bool;
     /// An impact.
     fn impact(&mut self, impact: &ImpactRecord);
+    /// The end of a contact motion that lasted: no impact, but a row like one. Its incoming speeds are those at the beginning. Taken as
+    /// an impact unless the listener tells them apart.
+    fn contact_ended(&mut self, row: &ImpactRecord) {
+        self.impact(row);
+    }
     /// A point of a wanted path.
     fn point(&mut self, particle: u64, time: f64, position: Vec3, velocity: Vec3, spin: Vec3);
     /// A particle ended.

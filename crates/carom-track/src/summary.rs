@@ -117,6 +117,13 @@ impl Summary {
         }
     }
 
+    /// Counts what settled at the end of a contact motion on the face where it did.
+    pub(crate) fn contact_ended(&mut self, row: &ImpactRecord, mass: f64) {
+        if row.event == Event::Settle {
+            self.faces.impact(row, mass);
+        }
+    }
+
     /// Counts an end; its deposit's cell, if it left one, is the caller's to keep.
     pub(crate) fn end(&mut self, end: &End, sorter: &Sorter) -> Option<(Cell, f64)> {
         let mass = end.particle.mass();

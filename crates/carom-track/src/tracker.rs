@@ -5,11 +5,14 @@
 
 mod ahead;
 mod chance;
+mod contact;
 mod crew;
 mod lane;
 mod meeting;
 mod removal;
 mod settings;
+mod staying;
+mod undisturbed;
 mod walk;
 mod wall_jet;
 

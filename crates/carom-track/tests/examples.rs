@@ -106,7 +106,8 @@ fn two_walls_with_and_without_adhesion() -> Result<()> {
     let elastic = file.clone().set_each("wall", "law", "reflect");
     let elastic = elastic.set_each("wall", "restitution", 1.0).set_each("wall", "tangential_restitution", 1.0);
     let [ea, one] = [file, elastic].map(|f| track(&f.case().expect("a case"), Paths::Dropped).remove(0));
-    assert_eq!((ea.end.fate, one.end.fate), (Fate::Captured, Fate::Settled));
+    // with e = 1 nothing holds it: when its bounces have died it slides on with the air
+    assert_eq!((ea.end.fate, one.end.fate), (Fate::Captured, Fate::Sliding));
     assert_eq!(ea.bounces(), 1);
     assert!((ea.impacts[0].position[1] - (20e-3 - 35e-6)).abs() < 1e-12, "it meets the upper wall first");
     for i in one.impacts.iter().filter(|i| i.event == Event::Rebound) {
@@ -115,7 +116,8 @@ fn two_walls_with_and_without_adhesion() -> Result<()> {
     }
     // the air alone takes its speed
     assert!(one.impacts.windows(2).all(|i| i[1].normal_speed_in < i[0].normal_speed_in));
-    let ratio = one.end.position[0] / ea.end.position[0];
+    let bounced = one.impacts.last().expect("it bounces").position[0];
+    let ratio = bounced / ea.end.position[0];
     assert!((2.2..2.8).contains(&ratio), "{ratio}");
     Ok(())
 }

@@ -130,6 +130,17 @@ impl WallLaw {
         self.kernel.tangential()
     }
 
+    /// The tangential restitution e_t that the law gives outright at speeds across and along the wall (m/s), as Fluent and OpenFOAM do;
+    /// `None` for laws of friction.
+    pub fn given_tangential_restitution(&self, v_n: f64, v_t: f64) -> Option<f64> {
+        match self.tangential() {
+            Tangential::Restitution(curve) => {
+                Some(curve.at(crate::math::BEST, self.tables().pieces, v_n, v_t, -1.0, 1.0))
+            }
+            _ => None,
+        }
+    }
+
     /// A rough wall's facets: such a law uses the [`Impact::draws`]. `None` for a smooth wall.
     pub fn scatter(&self) -> Option<&Scatter> {
         self.kernel.scatter.as_ref()

@@ -115,6 +115,9 @@ impl Sink for Collector {
     fn impact(&mut self, impact: &ImpactRecord) {
         self.open[impact.particle as usize].impacts.push(*impact);
     }
+    fn contact_ended(&mut self, row: &ImpactRecord) {
+        self.impact(row);
+    }
     fn point(&mut self, particle: u64, t: f64, x: [f64; 3], _: [f64; 3], _: [f64; 3]) {
         self.open[particle as usize].path.push([t, x[0], x[1], x[2]]);
     }

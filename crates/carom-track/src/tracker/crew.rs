@@ -88,6 +88,9 @@ impl<const W: usize, H: Copy> Crew<W, H> {
         for l in 0..W {
             goes[l] &= mask(self.steps[l] <= settings.max_steps);
         }
+        for l in 0..W {
+            goes[l] &= mask(self.time[l] + self.h[l] > self.time[l]);
+        }
         let (mut time, mut next) = ([0.0; W], [0.0; W]);
         for l in 0..W {
             time[l] = self.time[l] + self.h[l];

@@ -2,15 +2,19 @@
 
 #![allow(clippy::needless_range_loop, reason = "one index runs through several arrays of lanes or components")]
 
+use super::contact::Ending;
 use super::crew::Crew;
 use super::lane::{Lane, trace};
 use super::walk::finish;
 use super::wall_jet::leave;
 use super::{Behavior, Particle, Walk};
 use crate::domain::{Domain, Hit};
+use crate::dynamics::Bodies;
+use crate::force::brownian::BOLTZMANN;
 use crate::random::{Purpose, Stream};
 use crate::record::{Event, Fate, ImpactRecord, Sink};
 use crate::vector::{Vec3, add, cross, dot, norm, scale, sub};
+use carom::normal::NormalLaw;
 use carom::{Energy, Fate as LawFate, Impact, Validity, WallLaw};
 
 /// Impacts in a row without any time between them after which a sphere is wedged between walls and stays.
@@ -19,16 +23,16 @@ const WEDGED: u32 = 64;
 const NO_TIME: f64 = 1e-14;
 
 /// What an impact leaves.
-struct After {
-    event: Event,
-    velocity: Vec3,
-    spin: Vec3,
-    restitution: f64,
-    impulse_ratio: f64,
-    energy: Energy,
-    validity: Validity,
+pub(super) struct After {
+    pub event: Event,
+    pub velocity: Vec3,
+    pub spin: Vec3,
+    pub restitution: f64,
+    pub impulse_ratio: f64,
+    pub energy: Energy,
+    pub validity: Validity,
     /// A bounce of a wall law, which may be the last.
-    bounces: bool,
+    pub bounces: bool,
 }
 
 impl<D: Domain> Walk<'_, D> {
@@ -59,12 +63,22 @@ impl<D: Domain> Walk<'_, D> {
         }
         let mut after = self.outcome(crew, l, hit, v, spin);
         put(crew, l, hit.meeting.position, after.velocity, after.spin);
+        let mut contact = None;
         if after.event == Event::Rebound {
             if self.has_chance() {
                 self.renew(crew, l, theta * h);
             }
             if after.bounces && (crew.lanes[l].standing > WEDGED || self.settles(crew, l, hit, &after)) {
-                after = After { event: Event::Settle, velocity: hit.wall_velocity, spin: [0.0; 3], ..after };
+                let mut begun = self.contact(crew, l, hit, &after);
+                let standing = crew.lanes[l].standing;
+                match begun.begin() {
+                    Some(Ending::Rests) => after = after.at_rest(hit),
+                    // wedged: no time passes, whatever it does
+                    Some(_) if standing > WEDGED => after = after.at_rest(hit),
+                    None if standing > 2 * WEDGED => after = after.at_rest(hit),
+                    Some(_) => {}
+                    None => contact = Some(begun),
+                }
                 put(crew, l, hit.meeting.position, after.velocity, after.spin);
             }
         }
@@ -76,11 +90,20 @@ impl<D: Domain> Walk<'_, D> {
         sink.impact(&record(&crew.lanes[l], crew.time[l], hit, v, spin, &after));
         if let Some(fate) = after.event.ends() {
             finish(crew, l, fate, Some(hit.wall), sink);
+        } else if let Some(contact) = contact {
+            self.stay(crew, l, contact, sink);
         }
     }
 
     #[inline(always)]
-    fn outcome<const W: usize>(&self, crew: &Crew<W, D::Here>, l: usize, hit: &Hit, v: Vec3, spin: Vec3) -> After {
+    pub(super) fn outcome<const W: usize>(
+        &self,
+        crew: &Crew<W, D::Here>,
+        l: usize,
+        hit: &Hit,
+        v: Vec3,
+        spin: Vec3,
+    ) -> After {
         let lane = &crew.lanes[l];
         let n = hit.meeting.normal;
         let stay = |event| After {
@@ -123,7 +146,27 @@ impl<D: Domain> Walk<'_, D> {
             wall_velocity: hit.wall_velocity,
             draws: if law.scatter().is_some() { draws() } else { [0.5; 4] },
         };
-        let Ok(out) = law.impact(&impact) else { return stay(at_rest(law, &impact)) };
+        let Ok(out) = law.impact(&impact) else {
+            // pressed against the wall without approaching it
+            if is_held_at_rest(law, &impact) {
+                return stay(Event::Capture);
+            }
+            let relative = sub(v, hit.wall_velocity);
+            let along = sub(relative, scale(n, dot(relative, n)));
+            let kept = if norm(along) > 0.0 { 1.0 } else { 0.0 };
+            return After {
+                bounces: true,
+                velocity: add(along, hit.wall_velocity),
+                spin,
+                energy: Energy { kept, ..Energy::default() },
+                ..stay(Event::Rebound)
+            };
+        };
+        if out.fate == LawFate::Capture
+            && let Some(after) = glance(law, &impact, &out)
+        {
+            return after;
+        }
         After {
             bounces: true,
             event: if out.fate == LawFate::Capture { Event::Capture } else { Event::Rebound },
@@ -136,22 +179,77 @@ impl<D: Domain> Walk<'_, D> {
         }
     }
 
-    /// Would the next bounce rise less than the stated height?
+    /// Would the next bounce rise less than the stated height? The steady forces alone press.
     #[inline(always)]
     fn settles<const W: usize>(&self, crew: &Crew<W, D::Here>, l: usize, hit: &Hit, after: &After) -> bool {
         let n = hit.meeting.normal;
         let up = dot(sub(after.velocity, hit.wall_velocity), n);
-        let limit = 2.0 * self.settings.settle_height.of(crew.bodies.radius[l]);
+        let height = self.settings.settle_height.of(crew.bodies.radius[l]);
+        let limit = 2.0 * height;
         let along = sub(after.velocity, scale(n, up));
-        let (x, body) = (hit.meeting.position, crew.bodies.one(l));
+        let (x, mut body) = (hit.meeting.position, crew.bodies.one(l));
         let here = (crew.here[l], crew.time[l]);
         // a bound first, which costs no power
         if up > 0.0 && up * up >= limit * self.dynamics.press_at_most(self.domain, here, &body, x, along, n).max(0.0) {
             return false;
         }
+        (body.eddy, body.kick) = ([None], [[0.0]; 3]);
         let a = self.rates_at(here, &body, x, along, after.spin).a;
         let press = -(n[0] * a[0][0] + n[1] * a[1][0] + n[2] * a[2][0]);
-        if up <= 0.0 { press >= 0.0 } else { up * up < limit * press }
+        if self.dynamics.brownian && press * height <= self.thermal_energy(&body) {
+            // the molecules lift it higher than that again
+            return false;
+        }
+        if up <= 0.0 { press > 0.0 } else { up * up < limit * press }
+    }
+
+    /// k T per mass, m²/s².
+    fn thermal_energy(&self, body: &Bodies<1>) -> f64 {
+        BOLTZMANN * self.dynamics.fluid.temperature / body.sphere[0].mass()
+    }
+}
+
+/// What is left of an impact on a wall whose given restitution is zero: the motion along it.
+fn glance(law: &WallLaw, impact: &Impact, out: &carom::Outcome) -> Option<After> {
+    let NormalLaw::Table(_) = law.normal() else { return None };
+    let n = impact.normal;
+    let relative = sub(impact.velocity, impact.wall_velocity);
+    let v_n = -dot(relative, n);
+    let tangent = add(relative, scale(n, v_n));
+    let radius = 0.5 * impact.diameter;
+    let slip = sub(tangent, scale(cross(impact.spin, n), radius));
+    let (speed, slipping) = (norm(tangent), norm(slip));
+    let (velocity, spin) = match law.given_tangential_restitution(v_n, speed) {
+        Some(e_t) => (scale(tangent, e_t), impact.spin),
+        // an impact of a friction law without a rebound: the slip ends, or the normal impulse does not suffice
+        None if slipping > 0.0 => {
+            let impulse = (law.tangential().friction()? * v_n).min(2.0 / 7.0 * slipping);
+            let direction = scale(slip, 1.0 / slipping);
+            let turn = scale(cross(n, direction), 2.5 * impulse / radius);
+            (sub(tangent, scale(direction, impulse)), add(impact.spin, turn))
+        }
+        None => (tangent, impact.spin),
+    };
+    let energy = |v: Vec3, spin: Vec3| dot(v, v) + 0.4 * radius * radius * dot(spin, spin);
+    let (before, kept) = (energy(relative, impact.spin), energy(velocity, spin));
+    let across = v_n * v_n / before;
+    let kept = kept / before;
+    Some(After {
+        bounces: true,
+        event: Event::Rebound,
+        velocity: add(velocity, impact.wall_velocity),
+        spin,
+        restitution: 0.0,
+        impulse_ratio: norm(sub(tangent, velocity)) / v_n,
+        energy: Energy { other: across, kept, friction: (1.0 - across - kept).max(0.0), ..Energy::default() },
+        validity: out.validity,
+    })
+}
+
+impl After {
+    /// It stays where it hit.
+    fn at_rest(self, hit: &Hit) -> Self {
+        Self { event: Event::Settle, velocity: hit.wall_velocity, spin: [0.0; 3], ..self }
     }
 }
 
@@ -162,16 +260,13 @@ pub(super) fn law_of(behavior: &Behavior, injection: usize) -> Option<&WallLaw> 
     laws.get(injection).or(laws.first())
 }
 
-/// What becomes of a sphere that touches a wall at rest, pressed against it: held if the law captures at the slowest
-/// approach, settled if not.
-fn at_rest(law: &WallLaw, impact: &Impact) -> Event {
+/// Whether adhesion holds a sphere that touches a wall at rest: if the law captures at the slowest approach.
+fn is_held_at_rest(law: &WallLaw, impact: &Impact) -> bool {
     const SLOWEST: f64 = 1e-9;
     let approaching =
         Impact { velocity: sub(impact.wall_velocity, scale(impact.normal, SLOWEST)), spin: [0.0; 3], ..*impact };
-    match law.impact(&approaching) {
-        Ok(out) if out.fate == LawFate::Capture => Event::Capture,
-        _ => Event::Settle,
-    }
+    let captures = law.impact(&approaching).is_ok_and(|out| out.fate == LawFate::Capture);
+    captures && !matches!(law.normal(), NormalLaw::Table(_))
 }
 
 #[inline(always)]
@@ -186,7 +281,7 @@ pub(super) fn put<const W: usize, H>(crew: &mut Crew<W, H>, l: usize, x: Vec3, v
 
 /// Speeds and spin before and after, relative to the wall. Spin is positive when it rolls forward along the tangential
 /// velocity (the outgoing one where there is none coming in).
-fn record(lane: &Lane, time: f64, hit: &Hit, v: Vec3, spin: Vec3, after: &After) -> ImpactRecord {
+pub(super) fn record(lane: &Lane, time: f64, hit: &Hit, v: Vec3, spin: Vec3, after: &After) -> ImpactRecord {
     let n = hit.meeting.normal;
     let split = |v: Vec3| {
         let rel = sub(v, hit.wall_velocity);
@@ -225,7 +320,7 @@ impl Event {
     /// The fate of a particle that this ends.
     pub fn ends(self) -> Option<Fate> {
         match self {
-            Self::Rebound => None,
+            Self::Rebound | Self::RollOff | Self::SlideOff | Self::LiftOff => None,
             Self::Capture => Some(Fate::Captured),
             Self::Settle => Some(Fate::Settled),
             Self::Trap => Some(Fate::Trapped),

@@ -16,7 +16,7 @@ use crate::record::{End, Fate, Sink};
 use crate::vector::{Vec3, add};
 
 /// All that stays the same during a run in one kind of domain.
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug)]
 pub(super) struct Walk<'a, D> {
     pub domain: &'a D,
     pub dynamics: &'a Dynamics,
@@ -24,6 +24,16 @@ pub(super) struct Walk<'a, D> {
     pub settings: Settings,
 }
 
+impl<D> Copy for Walk<'_, D> {}
+
+impl<D> Clone for Walk<'_, D> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+/// Steps after which a sphere that goes on undisturbed is looked at again: it may never meet anything any more.
+const LOOK: u64 = 64;
 /// Edges met in a row without any time between them after which a sphere is led off the edge.
 const MOST_EDGES: u32 = 8;
 /// What is left of a step that leads off an edge.
@@ -88,6 +98,11 @@ impl<D: Domain> Walk<'_, D> {
             for l in 0..W {
                 rest[l] = mask(crew.busy[l]) & !goes[l];
             }
+            for l in 0..W {
+                if crew.steps[l] % LOOK == 0 && goes[l] != 0 {
+                    self.is_done(&mut crew, l, sink);
+                }
+            }
             let found = self.find_first(&crew, &ahead, &rest, &mut met);
             let mut rest = bits(&rest);
             while let Some(l) = take_lowest(&mut rest) {
@@ -115,7 +130,14 @@ impl<D: Domain> Walk<'_, D> {
             finish(crew, l, Fate::Airborne, None, sink);
             return;
         }
+        if let Some(overlap) = self.domain.walls().overlap(particle.position, crew.bodies.radius[l]) {
+            finish(crew, l, Fate::Overlapping, Some(overlap.wall), sink);
+            return;
+        }
         self.refresh_one(crew, l);
+        if self.is_done(crew, l, sink) {
+            return;
+        }
         crew.next[l] = self.first_step(crew, l);
         if self.has_chance() {
             self.renew(crew, l, 0.0);
@@ -124,21 +146,24 @@ impl<D: Domain> Walk<'_, D> {
         crew.stale[l] = true;
     }
 
-    fn per_step(&self) -> f64 {
+    pub(super) fn per_step(&self) -> f64 {
         self.settings.per_step(self.dynamics.need_place(self.domain), !self.domain.is_one_piece())
     }
 
     /// A first trial step, s: what the tolerance is likely to allow where forces change over the time in which they
     /// change the speed.
     #[inline(always)]
-    fn first_step<const W: usize>(&self, crew: &Crew<W, D::Here>, l: usize) -> f64 {
+    pub(super) fn first_step<const W: usize>(&self, crew: &Crew<W, D::Here>, l: usize) -> f64 {
         let (mut speed, mut change) = (0.0f64, 0.0f64);
         for c in 0..3 {
             speed = speed.max(crew.motion.v[c][l].abs());
             change = change.max(crew.rates.a[c][l].abs());
         }
         let share = (self.per_step() * 1e3).sqrt().sqrt();
-        let time = if speed > 0.0 && change > 0.0 { speed / change } else { 1.0 / crew.bodies.drag_rate[l] };
+        let relaxation = 1.0 / crew.bodies.drag_rate[l];
+        let slow = if relaxation.is_finite() { relaxation } else { 1.0 };
+        // next to rest the speed says nothing
+        let time = if speed > 0.0 && change > 0.0 { (speed / change).max(1e-9 * slow) } else { relaxation };
         if time.is_finite() { share * time } else { 1.0 }
     }
 
@@ -191,7 +216,7 @@ impl<D: Domain> Walk<'_, D> {
     fn limit<const W: usize>(&self, crew: &mut Crew<W, D::Here>) {
         for l in 0..W {
             let (x, v, _) = motion_of(&crew.motion, l);
-            crew.longest[l] = self.domain.longest(crew.here[l], x, v);
+            crew.longest[l] = self.domain.longest(crew.here[l], x, v).max(least_step(crew.time[l]));
         }
     }
 
@@ -214,6 +239,10 @@ impl<D: Domain> Walk<'_, D> {
             crew.next[l] = h * factor.min(0.9);
         } else {
             match &met.next {
+                // too short a step to count against the time: again with one that does
+                Next::Clear if crew.time[l] + h == crew.time[l] && h < crew.stop[l] - crew.time[l] => {
+                    crew.next[l] = least_step(crew.time[l]);
+                }
                 Next::Clear => self.accept(crew, l, factor, sink),
                 Next::Longest(share) => crew.next[l] = h * share,
                 Next::Edge { theta, into } => self.cross(crew, l, (*theta, *into), met, factor, sink),
@@ -306,6 +335,11 @@ impl<D: Domain> Walk<'_, D> {
             self.renew(crew, l, h);
         }
     }
+}
+
+/// A step that moves the time on, s.
+pub(super) fn least_step(time: f64) -> f64 {
+    (1e-14 * time.abs()).max(1e-30)
 }
 
 /// Tells the sink how a lane's particle ended; the lane is free then.

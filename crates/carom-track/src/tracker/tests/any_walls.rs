@@ -17,6 +17,9 @@ impl Sink for Paths {
     fn impact(&mut self, impact: &ImpactRecord) {
         self.log.impact(impact);
     }
+    fn contact_ended(&mut self, row: &ImpactRecord) {
+        self.log.contact_ended(row);
+    }
     fn point(&mut self, _: u64, _: f64, x: Vec3, _: Vec3, _: Vec3) {
         self.points.push(x);
     }
@@ -82,7 +85,7 @@ proptest! {
             prop_assert!(gap.abs() < 1e-9 * r + 1e-14, "impact {gap} m off {}", domain.walls()[i.wall].name);
         }
         let end = paths.log.ends[0];
-        if end.fate == Fate::Settled {
+        if matches!(end.fate, Fate::Settled | Fate::Sliding) {
             let gap = domain.walls()[end.wall.unwrap()].shape.distance(end.position) - r;
             prop_assert!(gap.abs() < 1e-9 * r + 1e-14, "settled {gap} m off");
         } else {
@@ -96,9 +99,9 @@ proptest! {
     }
 }
 
-/// In the groove between two walls, where roundings alone keep a sphere from leaving one of them.
+/// In the groove between two walls, where roundings alone keep a sphere from leaving one of them: the wind takes it out.
 #[test]
-fn a_sphere_driven_along_a_groove_comes_to_rest_in_it() {
+fn a_sphere_driven_along_a_groove_is_blown_out_of_it() {
     let n = unit([0.04438786216286354, 0.10755382851353631, -0.14688404611707714]).unwrap();
     let walls = vec![
         plane("low", n.map(|c| -0.01 * c), n),
@@ -114,6 +117,6 @@ fn a_sphere_driven_along_a_groove_comes_to_rest_in_it() {
     let v = [2.400293785861977, -4.988245807374214, 2.6474216303883624];
     let p = Particle { diameter: 0.0005869892327772226, density: 2500.0, ..sphere(0, [0.0; 3], v) };
     let log = track(&domain, &d, &behaviors, Settings { until: 0.5, max_steps: 3000, ..settings() }, &[p]);
-    assert_eq!(log.ends[0].fate, Fate::Settled);
-    assert!(log.ends[0].steps < 200, "{}", log.ends[0].steps);
+    assert_eq!(log.ends[0].fate, Fate::Airborne);
+    assert!(log.ends[0].steps < 3000, "{}", log.ends[0].steps);
 }

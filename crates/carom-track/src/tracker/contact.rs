@@ -1,0 +1,518 @@
+//! Contact motion: a sphere whose bounces have died down slides or rolls on along its wall.
+//!
+//! It is held to the wall as long as the steady forces press (weight, mean drag, lift, less what the wall's curvature asks; kicks and
+//! eddies neither press nor hold), slowed by the law's friction until it rolls, rolls on where nothing slows it, and leaves where
+//! nothing presses or the wall ends. It has settled when this motion has ended too. Between two walls it moves along their groove,
+//! and three hold it.
+//!
+//! With p the force per mass that presses, v_s the slip of the contact point and f the friction coefficient: sliding, v' = a − f p v̂_s
+//! and ω' = (5/2)(f p/R)(n × v̂_s); rolling, the friction −(2/7) v_s' that keeps the slip zero, as long as f p is enough for it.
+
+mod surface;
+
+use super::Walk;
+use super::walk::least_step;
+use crate::domain::{Domain, Hit, Next};
+use crate::dynamics::Bodies;
+use crate::geometry::{Path, Shape, evaluate};
+use crate::integrate::{Control, Derivative, Lanes, Motion as Motions, Rates, Step, growth, step};
+use crate::record::Event;
+use crate::vector::{Vec3, add, dot, norm, scale, sub, unit};
+use surface::{Held, Rub, Surface};
+
+/// Position, velocity and spin of a sphere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Motion {
+    pub x: Vec3,
+    pub v: Vec3,
+    pub spin: Vec3,
+}
+
+/// What a sphere in contact comes to.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Ending {
+    /// Rest.
+    Rests,
+    /// The end of the run.
+    TimeIsUp,
+    /// It leaves the wall.
+    Leaves(Event),
+    /// Another wall, met with the motion it has.
+    Meets(Hit),
+    /// Its steps ran out.
+    Stalls,
+}
+
+/// Slip over the speeds it is made of that counts as none.
+const NO_SLIP: f64 = 1e-9;
+/// Force along the surface over the one across it that counts as none.
+const LEVEL: f64 = 1e-9;
+/// Share of the radius by which a path is lifted off its own wall before others are looked for.
+const LIFT: f64 = 1e-10;
+/// And of the coordinates: more than their rounding.
+const ROUNDED: f64 = 8e-15;
+/// Radii that a step may go along triangles: their edges are looked for four times a step.
+const STRIDE: f64 = 4.0;
+/// A step of a motion without end is long enough to call it that, s.
+const ENDLESS: f64 = 1e12;
+
+/// A sphere in contact motion.
+pub(super) struct Contact<'a, D: Domain> {
+    walk: Walk<'a, D>,
+    body: Bodies<1>,
+    injection: usize,
+    /// A height that counts as none, m.
+    height: f64,
+    pub here: D::Here,
+    pub time: f64,
+    pub motion: Motion,
+    /// Trial steps so far.
+    pub steps: u64,
+    /// Energy per mass that friction took, m²/s².
+    pub worn: f64,
+    /// The wall it is on, and its normal there.
+    pub wall: usize,
+    pub normal: Vec3,
+    rolls: bool,
+    next: f64,
+    /// By how much a path is lifted off what the sphere touches, before other walls are looked for, m.
+    lift: Vec3,
+}
+
+/// How friction acts during a step.
+#[derive(Clone, Copy, Debug)]
+enum Kind {
+    Free,
+    /// Against a slip that is within a right angle of this direction; beyond zero slip it goes on smoothly.
+    Slides(Vec3),
+    Rolls,
+}
+
+/// Where a step must end.
+#[derive(Clone, Copy, Debug)]
+enum Stop<H> {
+    /// At its end.
+    Whole,
+    Edge(H),
+    Wall(Hit),
+    /// The slip is gone, or friction does not keep it zero.
+    Grip,
+    /// Nothing presses any more.
+    Press,
+    /// The wall is not under it any more.
+    Support,
+}
+
+impl<'a, D: Domain> Contact<'a, D> {
+    /// A sphere that just lost its motion across a wall.
+    #[allow(clippy::too_many_arguments)]
+    pub fn new(
+        walk: Walk<'a, D>,
+        mut body: Bodies<1>,
+        injection: usize,
+        (here, time): (D::Here, f64),
+        motion: Motion,
+        wall: usize,
+        normal: Vec3,
+        steps: u64,
+    ) -> Self {
+        (body.eddy, body.kick) = ([None], [[0.0]; 3]);
+        let radius = body.radius[0];
+        let height = walk.settings.settle_height.of(radius).max(1e-9 * radius);
+        let next = 1e-3;
+        let (worn, rolls, lift) = (0.0, false, [0.0; 3]);
+        Self { walk, body, injection, height, here, time, motion, steps, worn, wall, normal, rolls, next, lift }
+    }
+
+    fn radius(&self) -> f64 {
+        self.body.radius[0]
+    }
+
+    /// The steady forces' acceleration and angular acceleration.
+    fn steady(&self, time: f64, m: &Motion) -> (Vec3, Vec3) {
+        let r = self.walk.rates_at((self.here, time), &self.body, m.x, m.v, m.spin);
+        let column = |v: &[[f64; 1]; 3]| [v[0][0], v[1][0], v[2][0]];
+        (column(&r.a), if self.walk.dynamics.spins() { column(&r.alpha) } else { [0.0; 3] })
+    }
+
+    /// The contacts that the sphere does not move off from, or into, by more than a bounce that counts as none.
+    fn contacts(&self, a: Vec3) -> Vec<Held<'a>> {
+        let walls = self.walk.domain.walls();
+        let slow = 2.0 * self.height * norm(a);
+        let supports = walls.support(self.motion.x, self.radius(), self.height);
+        let held = supports.iter().filter_map(|s| {
+            let wall = walls.list().get(s.wall)?;
+            let v = sub(self.motion.v, wall.velocity);
+            let across = dot(v, s.normal);
+            let rounding = 1e-9 * norm(v);
+            let rub = Rub::of(self.walk.behaviors.get(s.wall), self.injection, norm(v));
+            (across.abs() <= rounding || across * across <= slow).then_some(Held {
+                index: s.wall,
+                wall,
+                normal: s.normal,
+                rub,
+                gap: s.gap,
+            })
+        });
+        held.collect()
+    }
+
+    /// The surface the sphere moves on, with its velocity along it; `Err` with what it comes to instead.
+    fn surface(&mut self) -> Result<Surface<'a>, Ending> {
+        let (a, _) = self.steady(self.time, &self.motion);
+        let contacts = self.contacts(a);
+        if contacts.is_empty() {
+            return Err(Ending::Leaves(self.off()));
+        }
+        let Some(surface) = Surface::choose(&contacts, &self.motion, a) else {
+            return Err(Ending::Rests);
+        };
+        let Some(first) = surface.list().first() else { return Err(Ending::Leaves(Event::LiftOff)) };
+        (self.wall, self.normal) = (first.index, first.normal);
+        let u = surface.wall_velocity();
+        let far = self.motion.x.iter().fold(0.0f64, |m, c| m.max(c.abs()));
+        let reach = (LIFT * self.radius()).max(ROUNDED * far);
+        self.lift = contacts.iter().fold([0.0; 3], |l, c| add(l, scale(c.normal, reach)));
+        self.motion.x = add(self.motion.x, surface.closing());
+        self.motion.v = add(u, surface.along(sub(self.motion.v, u)));
+        let ended = surface.list().iter().any(|c| c.rub == Rub::Ended);
+        if ended || self.is_at_rest(&surface) { Err(Ending::Rests) } else { Ok(surface) }
+    }
+
+    /// Whether it stays where it is from the beginning; what it comes to else, if it does not move along a wall at all.
+    pub fn begin(&mut self) -> Option<Ending> {
+        self.surface().err()
+    }
+
+    /// Where the sphere is, exactly in contact with its wall.
+    pub fn place(&self) -> Vec3 {
+        let x = self.motion.x;
+        let Some(wall) = self.walk.domain.walls().list().get(self.wall) else { return x };
+        let gap = wall.shape.distance(x) - wall.clearance(self.radius());
+        if gap.abs() <= self.height { sub(x, scale(self.normal, gap)) } else { x }
+    }
+
+    /// The word for leaving by an impact on another wall.
+    pub fn left_by(&self) -> Event {
+        self.off()
+    }
+
+    /// The word for leaving by its own motion.
+    fn off(&self) -> Event {
+        if self.rolls { Event::RollOff } else { Event::SlideOff }
+    }
+
+    /// Whether the motion along the surface has ended: the rest of its way, or the height it swings to, counts as none, and nothing
+    /// drives it where it is.
+    fn is_at_rest(&self, surface: &Surface) -> bool {
+        let m = &self.motion;
+        let u = surface.wall_velocity();
+        let v = sub(m.v, u);
+        let still = Motion { v: u, spin: [0.0; 3], ..*m };
+        let (a, _) = self.steady(self.time, &still);
+        let pressed = surface.press(&still, a);
+        let driven = surface.along(pressed.acceleration);
+        let (now, turn) = self.steady(self.time, m);
+        let kind = self.kind(surface);
+        let slowed = surface.along(self.accelerations(surface, kind, m, now, turn).0);
+        let ends = |v: Vec3, driven: Vec3, slowed: Vec3| {
+            let speed = norm(v);
+            let level = norm(driven) <= LEVEL * pressed.total;
+            level && (speed == 0.0 || speed * speed * speed < self.height * -dot(slowed, v))
+        };
+        let Some(circle) = surface.hollow(self.radius()) else { return ends(v, driven, slowed) };
+        // a pendulum around, and as on a plane along
+        let Some(Shape::Cylinder(c)) = surface.list().first().map(|c| &c.wall.shape) else { return false };
+        let axial = |v: Vec3| scale(c.axis, dot(v, c.axis));
+        let (around, pull) = (sub(v, axial(v)), sub(driven, axial(driven)));
+        let swing = 0.5 * dot(around, around) + 0.5 * dot(pull, pull) * circle / pressed.total;
+        swing < self.height * pressed.total && ends(axial(v), axial(driven), axial(slowed))
+    }
+
+    fn kind(&self, surface: &Surface) -> Kind {
+        let m = &self.motion;
+        let (a, turn) = self.steady(self.time, m);
+        let pressed = surface.press(m, a);
+        if pressed.friction <= 0.0 {
+            return Kind::Free;
+        }
+        let slip = surface.slip(m, self.radius());
+        let speeds = norm(sub(m.v, surface.wall_velocity())) + self.radius() * norm(m.spin);
+        if !self.rolls && norm(slip) > NO_SLIP * speeds {
+            return unit(slip).map_or(Kind::Free, Kind::Slides);
+        }
+        let grip = self.grip(surface, m, pressed.acceleration, turn);
+        if norm(grip) <= pressed.friction {
+            Kind::Rolls
+        } else {
+            unit(grip).map_or(Kind::Rolls, |g| Kind::Slides(scale(g, -1.0)))
+        }
+    }
+
+    /// The friction per mass that keeps the slip as it is, m/s².
+    fn grip(&self, surface: &Surface, m: &Motion, a: Vec3, turn: Vec3) -> Vec3 {
+        let change = Motion { v: add(surface.wall_velocity(), a), spin: turn, ..*m };
+        let lever = surface.lever();
+        scale(surface.slip(&change, self.radius()), -1.0 / (1.0 + 2.5 * lever * lever))
+    }
+
+    /// Acceleration and angular acceleration on a surface, where the forces alone would give `a` and `turn`.
+    fn accelerations(&self, surface: &Surface, kind: Kind, m: &Motion, a: Vec3, turn: Vec3) -> (Vec3, Vec3) {
+        let pressed = surface.press(m, a);
+        let friction = match kind {
+            Kind::Free => return (pressed.acceleration, turn),
+            Kind::Rolls => self.grip(surface, m, pressed.acceleration, turn),
+            Kind::Slides(ahead) => {
+                let direction = unit(surface.slip(m, self.radius())).unwrap_or(ahead);
+                let direction = if dot(direction, ahead) < 0.0 { scale(direction, -1.0) } else { direction };
+                scale(direction, -pressed.friction)
+            }
+        };
+        (add(pressed.acceleration, friction), add(turn, surface.turn(friction, self.radius())))
+    }
+
+    /// Follows the motion until it comes to something.
+    pub fn run(&mut self, mut trace: impl FnMut(f64, &Motion)) -> Ending {
+        loop {
+            let surface = match self.surface() {
+                Ok(surface) => surface,
+                Err(ending) => return ending,
+            };
+            let kind = self.kind(&surface);
+            self.rolls = matches!(kind, Kind::Rolls);
+            let until = self.walk.settings.until;
+            let h = self.length(&surface).min(until - self.time);
+            if h <= 0.0 || h > ENDLESS {
+                return Ending::TimeIsUp;
+            }
+            trace(self.time, &self.motion);
+            self.steps += 1;
+            let trial = self.attempt(&surface, kind, h);
+            let factor = growth(trial.error_squared[0], true);
+            if self.steps > self.walk.settings.max_steps || self.time + h == self.time {
+                return Ending::Stalls;
+            }
+            let good = trial.error_squared[0] <= 1.0;
+            if !good {
+                self.next = h * factor.min(0.9);
+                continue;
+            }
+            let path = self.path(&trial);
+            if let Next::Longest(share) = self.walk.domain.edge(self.here, &path) {
+                self.next = h * share;
+                continue;
+            }
+            let (theta, stop) = self.first_stop(&surface, kind, &trial, &path, h);
+            self.worn += self.work(&surface, kind, &trial, h, theta);
+            self.take(&surface, &trial, h, theta, until);
+            if h >= self.next || factor < 1.0 {
+                self.next = h * factor;
+            }
+            match stop {
+                Stop::Whole => {}
+                Stop::Edge(into) => self.here = into,
+                Stop::Wall(hit) => return Ending::Meets(self.touch(hit)),
+                Stop::Grip => self.rolls = !self.rolls,
+                Stop::Press if surface.list().len() == 1 => return Ending::Leaves(self.lost(&surface)),
+                Stop::Press => {}
+                Stop::Support => return Ending::Leaves(self.off()),
+            }
+        }
+    }
+
+    /// The word for leaving where the force presses no more: thrown off a round wall, lifted off a flat one.
+    fn lost(&self, surface: &Surface) -> Event {
+        let round = surface.list().iter().any(|c| matches!(c.wall.shape, Shape::Cylinder(_)));
+        if round { self.off() } else { Event::LiftOff }
+    }
+
+    fn length(&self, surface: &Surface) -> f64 {
+        let speed = norm(sub(self.motion.v, surface.wall_velocity()));
+        let longest = self.walk.domain.longest(self.here, self.motion.x, self.motion.v);
+        let meshed = surface.list().iter().any(|c| matches!(c.wall.shape, Shape::Mesh(_)));
+        let stride = if meshed { STRIDE * self.radius() / speed } else { f64::INFINITY };
+        self.next.min(longest).min(stride).max(least_step(self.time))
+    }
+
+    fn attempt(&self, surface: &Surface, kind: Kind, h: f64) -> Step<1> {
+        let column = |v: Vec3| v.map(|c| [c]);
+        let m = &self.motion;
+        let start = Motions { x: column(m.x), v: column(m.v), spin: column(m.spin) };
+        let acting = OnSurface { contact: self, surface, kind };
+        let mut first = Rates::ZERO;
+        acting.rates(&[self.time], &start, &mut first);
+        let control = Control { tolerance: self.walk.per_step(), spins: true, place: true };
+        let mut out = Step::ZERO;
+        step(&[self.time], &start, &first, &[h], control, &acting, &mut out);
+        out
+    }
+
+    fn path(&self, trial: &Step<1>) -> Path {
+        Path { start: self.motion.x, points: trial.path.map(|p| [p[0][0], p[1][0], p[2][0]]) }
+    }
+
+    /// The motion at θ of a step.
+    fn at(&self, trial: &Step<1>, h: f64, theta: f64) -> Motion {
+        let (offset, v) = trial.along(&[h], &[theta]);
+        let column = |v: [[f64; 1]; 3]| [v[0][0], v[1][0], v[2][0]];
+        let twist = trial.twist.map(column);
+        Motion {
+            x: add(self.motion.x, column(offset)),
+            v: column(v),
+            spin: add(self.motion.spin, evaluate(&twist, theta)),
+        }
+    }
+
+    /// What a step comes to first, and where.
+    fn first_stop(&self, surface: &Surface, kind: Kind, trial: &Step<1>, path: &Path, h: f64) -> (f64, Stop<D::Here>) {
+        let mut first = (1.0, Stop::Whole);
+        if let Next::Edge { theta, into } = self.walk.domain.edge(self.here, path) {
+            first = (theta, Stop::Edge(into));
+        }
+        if let Some(hit) = self.other_wall(surface, path).filter(|hit| hit.meeting.theta < first.0) {
+            first = (hit.meeting.theta, Stop::Wall(hit));
+        }
+        let mut before = 0.0;
+        for quarter in [0.25, 0.5, 0.75, 1.0] {
+            if before >= first.0 {
+                break;
+            }
+            let fails = |theta: f64| self.fails(surface, kind, &self.at(trial, h, theta), self.time + theta * h);
+            if let Some(why) = fails(quarter) {
+                let (mut low, mut high, mut why) = (before, quarter, why);
+                for _ in 0..50 {
+                    let middle = 0.5 * (low + high);
+                    match fails(middle) {
+                        Some(w) => (high, why) = (middle, w),
+                        None => low = middle,
+                    }
+                }
+                if high < first.0 {
+                    first = (high, why);
+                }
+                break;
+            }
+            before = quarter;
+        }
+        first
+    }
+
+    /// Why a step may not go on to a motion.
+    fn fails(&self, surface: &Surface, kind: Kind, m: &Motion, time: f64) -> Option<Stop<D::Here>> {
+        let here = surface.at(m.x);
+        let (a, turn) = self.steady(time, m);
+        let pressed = here.press(m, a);
+        if !pressed.holds {
+            return Some(Stop::Press);
+        }
+        match kind {
+            Kind::Free => {}
+            Kind::Slides(ahead) if dot(here.slip(m, self.radius()), ahead) <= 0.0 => return Some(Stop::Grip),
+            Kind::Slides(_) => {}
+            Kind::Rolls if norm(self.grip(&here, m, pressed.acceleration, turn)) > pressed.friction => {
+                return Some(Stop::Grip);
+            }
+            Kind::Rolls => {}
+        }
+        let under = |c: &Held| {
+            let Shape::Mesh(_) = c.wall.shape else { return true };
+            let supports = self.walk.domain.walls().support(m.x, self.radius(), self.height);
+            supports.iter().any(|s| s.wall == c.index && dot(s.normal, c.normal) > 0.99)
+        };
+        (!here.list().iter().all(under)).then_some(Stop::Support)
+    }
+
+    /// The first other wall, or other part of its wall, that the sphere meets.
+    fn other_wall(&self, surface: &Surface, path: &Path) -> Option<Hit> {
+        let walls = self.walk.domain.walls();
+        let lifted = Path { start: add(path.start, self.lift), ..*path };
+        let mut first: Option<Hit> = None;
+        for (index, wall) in walls.list().iter().enumerate() {
+            let own = surface.list().iter().any(|c| c.index == index);
+            if own && matches!(wall.shape, Shape::Cylinder(_) | Shape::Plane(_)) {
+                continue;
+            }
+            let met = wall.shape.meet(&lifted, wall.clearance(self.radius()), 0.1 * norm(self.lift));
+            let Some((meeting, face)) = met else { continue };
+            let is_own = |c: &Held| c.index == index && dot(c.normal, meeting.normal) > 1.0 - 1e-6;
+            if surface.list().iter().any(is_own) || first.is_some_and(|f| f.meeting.theta <= meeting.theta) {
+                continue;
+            }
+            first = Some(Hit { wall: index, face, meeting, wall_velocity: wall.velocity });
+        }
+        first
+    }
+
+    /// Puts the sphere exactly in contact with a wall it meets.
+    fn touch(&mut self, mut hit: Hit) -> Hit {
+        if let Some(wall) = self.walk.domain.walls().list().get(hit.wall) {
+            let gap = wall.shape.distance(self.motion.x) - wall.clearance(self.radius());
+            self.motion.x = sub(self.motion.x, scale(hit.meeting.normal, gap));
+        }
+        hit.meeting.position = self.motion.x;
+        hit
+    }
+
+    /// Energy per mass that friction takes up to θ of a step: Boole's rule over the power f p |v_s|.
+    fn work(&self, surface: &Surface, kind: Kind, trial: &Step<1>, h: f64, theta: f64) -> f64 {
+        if !matches!(kind, Kind::Slides(_)) {
+            return 0.0;
+        }
+        const WEIGHTS: [f64; 5] = [7.0, 32.0, 12.0, 32.0, 7.0];
+        let power = |i: usize| {
+            let t = theta * 0.25 * i as f64;
+            let m = self.at(trial, h, t);
+            let here = surface.at(m.x);
+            let (a, _) = self.steady(self.time + t * h, &m);
+            here.press(&m, a).friction * norm(here.slip(&m, self.radius()))
+        };
+        let sum: f64 = WEIGHTS.iter().enumerate().map(|(i, w)| w * power(i)).sum();
+        sum * theta * h / 90.0
+    }
+
+    /// Takes a step up to θ.
+    fn take(&mut self, surface: &Surface, trial: &Step<1>, h: f64, theta: f64, until: f64) {
+        self.motion = self.at(trial, h, theta);
+        self.time = if theta == 1.0 && h >= until - self.time { until } else { self.time + theta * h };
+        let here = surface.at(self.motion.x);
+        let radius = self.radius();
+        if let [c] = here.list()
+            && let Shape::Cylinder(round) = &c.wall.shape
+        {
+            let off = round.distance(self.motion.x) - c.wall.clearance(radius);
+            self.motion.x = sub(self.motion.x, scale(c.normal, off));
+        }
+        let u = here.wall_velocity();
+        self.motion.v = add(u, here.along(sub(self.motion.v, u)));
+        if self.rolls {
+            self.motion.spin = here.rolling_spin(&self.motion, radius);
+        }
+    }
+
+    /// Goes on after an impact on another wall: whether the sphere still moves along the wall it was on.
+    pub fn goes_on(&mut self, motion: Motion) -> bool {
+        let wall = self.walk.domain.walls().list().get(self.wall).map_or([0.0; 3], |w| w.velocity);
+        let v = sub(motion.v, wall);
+        let stays = dot(v, self.normal).abs() <= 1e-9 * norm(v);
+        self.motion = motion;
+        self.rolls = false;
+        stays
+    }
+}
+
+/// The forces on a sphere on a surface.
+struct OnSurface<'b, 'a, D: Domain> {
+    contact: &'b Contact<'a, D>,
+    surface: &'b Surface<'a>,
+    kind: Kind,
+}
+
+impl<D: Domain> Derivative<1> for OnSurface<'_, '_, D> {
+    fn rates(&self, time: &Lanes<1>, motion: &Motions<1>, out: &mut Rates<1>) {
+        let column = |v: &[[f64; 1]; 3]| [v[0][0], v[1][0], v[2][0]];
+        let m = Motion { x: column(&motion.x), v: column(&motion.v), spin: column(&motion.spin) };
+        let (a, turn) = self.contact.steady(time[0], &m);
+        let (a, turn) = self.contact.accelerations(&self.surface.at(m.x), self.kind, &m, a, turn);
+        (out.a, out.alpha) = (a.map(|c| [c]), turn.map(|c| [c]));
+    }
+}

@@ -1,0 +1,159 @@
+//! How a lane goes into contact motion and out of it: its rows, its impacts on other walls, its fate.
+
+use super::Walk;
+use super::contact::{Contact, Ending, Motion};
+use super::crew::Crew;
+use super::lane::Lane;
+use super::meeting::{After, put, record};
+use super::walk::finish;
+use crate::domain::{Domain, Hit};
+use crate::geometry::Meeting;
+use crate::record::{Event, Fate, Sink};
+use crate::vector::{Vec3, dot, norm, sub};
+use carom::{Energy, Validity};
+
+/// Impacts on other walls during one contact motion after which a sphere is wedged between them.
+const WEDGED: u32 = 10_000;
+
+impl<D: Domain> Walk<'_, D> {
+    /// The contact motion of a lane whose bounce dies.
+    pub(super) fn contact<'b, const W: usize>(
+        &'b self,
+        crew: &Crew<W, D::Here>,
+        l: usize,
+        hit: &Hit,
+        after: &After,
+    ) -> Contact<'b, D> {
+        let motion = Motion { x: hit.meeting.position, v: after.velocity, spin: after.spin };
+        let place = (crew.here[l], crew.time[l]);
+        let injection = crew.lanes[l].particle.injection;
+        let (wall, normal) = (hit.wall, hit.meeting.normal);
+        Contact::new(*self, crew.bodies.one(l), injection, place, motion, wall, normal, crew.steps[l])
+    }
+
+    /// Follows a lane's contact motion to its end.
+    pub(super) fn stay<const W: usize>(
+        &self,
+        crew: &mut Crew<W, D::Here>,
+        l: usize,
+        mut contact: Contact<'_, D>,
+        sink: &mut dyn Sink,
+    ) {
+        let began = (contact.time, contact.motion);
+        let mut blows = 0;
+        let (event, fate) = loop {
+            let (number, traced) = (crew.lanes[l].particle.number, crew.lanes[l].trace);
+            let trace = |time: f64, m: &Motion| {
+                if traced {
+                    sink.point(number, time, m.x, m.v, m.spin);
+                }
+            };
+            let ending = contact.run(trace);
+            self.bring(crew, l, &contact);
+            match ending {
+                Ending::Rests => break (Some(Event::Settle), Some(Fate::Settled)),
+                Ending::TimeIsUp => break (None, Some(Fate::Sliding)),
+                Ending::Stalls => {
+                    sink.stalled();
+                    break (None, Some(Fate::Sliding));
+                }
+                Ending::Leaves(event) => break (Some(event), None),
+                Ending::Meets(hit) => {
+                    blows += 1;
+                    let m = contact.motion;
+                    crew.lanes[l].impacts += 1;
+                    let after = self.outcome(crew, l, &hit, m.v, m.spin);
+                    let ends = after.event.ends();
+                    let stays = contact.goes_on(Motion { v: after.velocity, spin: after.spin, ..m });
+                    let wedged = blows > WEDGED;
+                    if ends.is_some() || !(stays || wedged) {
+                        let off = contact.left_by();
+                        self.end_row(crew, l, &contact, began, off, sink);
+                    }
+                    put(crew, l, m.x, after.velocity, after.spin);
+                    sink.impact(&record(&crew.lanes[l], crew.time[l], &hit, m.v, m.spin, &after));
+                    match ends {
+                        Some(fate) => return finish(crew, l, fate, Some(hit.wall), sink),
+                        None if wedged => break (Some(Event::Settle), Some(Fate::Settled)),
+                        None if !stays => return self.fly_on(crew, l, began.0),
+                        None => {}
+                    }
+                }
+            }
+        };
+        let wall = contact.wall;
+        if fate == Some(Fate::Settled) {
+            let velocity = self.domain.walls().list().get(wall).map_or([0.0; 3], |w| w.velocity);
+            put(crew, l, contact.place(), velocity, [0.0; 3]);
+        }
+        if let Some(event) = event {
+            self.end_row(crew, l, &contact, began, event, sink);
+        }
+        match fate {
+            Some(fate) => finish(crew, l, fate, Some(wall), sink),
+            None => self.fly_on(crew, l, began.0),
+        }
+    }
+
+    /// Brings a lane up to its contact motion.
+    fn bring<const W: usize>(&self, crew: &mut Crew<W, D::Here>, l: usize, contact: &Contact<'_, D>) {
+        (crew.time[l], crew.here[l], crew.steps[l]) = (contact.time, contact.here, contact.steps);
+        put(crew, l, contact.motion.x, contact.motion.v, contact.motion.spin);
+    }
+
+    /// A lane flies again.
+    fn fly_on<const W: usize>(&self, crew: &mut Crew<W, D::Here>, l: usize, since: f64) {
+        if crew.time[l] > since {
+            crew.lanes[l].standing = 0;
+        }
+        crew.next[l] = self.first_step(crew, l);
+        if self.has_chance() {
+            self.renew(crew, l, crew.time[l] - since);
+        }
+    }
+
+    /// The row where contact motion ends: speeds along the wall where it began and where it ends, and as shares of the energy there
+    /// was, the motion's and what the forces did, what friction took and what is left.
+    fn end_row<const W: usize>(
+        &self,
+        crew: &Crew<W, D::Here>,
+        l: usize,
+        contact: &Contact<'_, D>,
+        (_, began): (f64, Motion),
+        event: Event,
+        sink: &mut dyn Sink,
+    ) {
+        let lane: &Lane = &crew.lanes[l];
+        let wall_velocity = self.domain.walls().list().get(contact.wall).map_or([0.0; 3], |w| w.velocity);
+        let m = contact.motion;
+        let (velocity, spin) = if event == Event::Settle { (wall_velocity, [0.0; 3]) } else { (m.v, m.spin) };
+        let radius = crew.bodies.radius[l];
+        let left = 0.5 * square(sub(m.v, wall_velocity)) + 0.2 * radius * radius * square(m.spin);
+        let all = left + contact.worn;
+        let share = |e: f64| if all > 0.0 { e / all } else { 0.0 };
+        let energy = Energy { friction: share(contact.worn), kept: share(left), ..Energy::default() };
+        let meeting = Meeting { theta: 0.0, position: contact.place(), normal: contact.normal };
+        let hit = Hit { wall: contact.wall, face: None, meeting, wall_velocity };
+        let after = After {
+            event,
+            velocity,
+            spin,
+            restitution: f64::NAN,
+            impulse_ratio: f64::NAN,
+            energy,
+            validity: Validity::NONE,
+            bounces: false,
+        };
+        let along = |v: Vec3| {
+            // the row is of the motion along the wall: rounding across it is none
+            let across = dot(sub(v, wall_velocity), contact.normal);
+            [0, 1, 2].map(|c| v[c] - across * contact.normal[c])
+        };
+        debug_assert!(norm(contact.normal) > 0.5);
+        sink.contact_ended(&record(lane, contact.time, &hit, along(began.v), began.spin, &after));
+    }
+}
+
+fn square(v: Vec3) -> f64 {
+    dot(v, v)
+}
