@@ -65,7 +65,7 @@ fn hash_of<'a>(laws: impl Iterator<Item = &'a WallLaw>, n: usize) -> u64 {
 }
 
 /// One number for each normal law, over all tangential laws.
-const SMOOTH: [u64; 20] = [
+const SMOOTH: [u64; 22] = [
     0x8e2cf51aeb48254b,
     0x75c0e49dc45a82a6,
     0x06f3d22d5eebb085,
@@ -86,6 +86,8 @@ const SMOOTH: [u64; 20] = [
     0xe81b56ae96625af0,
     0xf2e8654a6fb0cff8,
     0xe7ecf191189f0f4e,
+    0xb598c60a6d712ded,
+    0x6f8f11633152acb9,
 ];
 
 /// The same on a wall that scatters, a few laws.
