@@ -114,7 +114,7 @@ fn outcomes_on_a_wall_that_scatters_have_their_bits() {
 }
 
 /// Two chunks of rows; some in the first leave the range where a fused multiply-add is exact without branches.
-fn batch_hash(set: InstructionSet) -> u64 {
+fn batch_hash(set: InstructionSet, laws: &[(String, WallLaw)]) -> u64 {
     const ROWS: usize = 131;
     let at = |i: usize, k: usize| ((i * 7_919 + k * 104_729) % 65_521) as f64 / 65_521.0;
     let column = |f: &dyn Fn(usize) -> f64| (0..ROWS).map(f).collect::<Vec<f64>>();
@@ -128,7 +128,7 @@ fn batch_hash(set: InstructionSet) -> u64 {
     };
     let mut hash = Hash(0xcbf2_9ce4_8422_2325);
     // every third combination has every normal and every tangential law
-    for (_, law) in common::all_laws().iter().step_by(3) {
+    for (_, law) in laws.iter().step_by(3) {
         let mut columns = [const { [0.0; ROWS] }; 5];
         let [n, t, w, e, ratio] = &mut columns;
         let mut rebound = Rebound { restitution: Some(e), impulse_ratio: Some(ratio), ..Rebound::new(n, t, w) };
@@ -142,6 +142,8 @@ fn batch_hash(set: InstructionSet) -> u64 {
 fn batches_have_their_bits_on_every_instruction_set() {
     for set in InstructionSet::available() {
         println!("{set:?}");
-        assert_eq!(batch_hash(set), 0x3029_3494_6bc6_34e1, "{set:?}");
+        let (first, dahneke) = common::all_laws().split_at(200);
+        assert_eq!(batch_hash(set, first), 0x3029_3494_6bc6_34e1, "{set:?}");
+        assert_eq!(batch_hash(set, dahneke), 0x4c28_ff77_b403_5afd, "{set:?}");
     }
 }
