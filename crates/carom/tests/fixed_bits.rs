@@ -65,7 +65,7 @@ fn hash_of<'a>(laws: impl Iterator<Item = &'a WallLaw>, n: usize) -> u64 {
 }
 
 /// One number for each normal law, over all tangential laws.
-const SMOOTH: [u64; 20] = [
+const SMOOTH: [u64; 22] = [
     0x8e2cf51aeb48254b,
     0x75c0e49dc45a82a6,
     0x06f3d22d5eebb085,
@@ -86,6 +86,8 @@ const SMOOTH: [u64; 20] = [
     0xe81b56ae96625af0,
     0xf2e8654a6fb0cff8,
     0xe7ecf191189f0f4e,
+    0xb598c60a6d712ded,
+    0x6f8f11633152acb9,
 ];
 
 /// The same on a wall that scatters, a few laws.
@@ -112,7 +114,7 @@ fn outcomes_on_a_wall_that_scatters_have_their_bits() {
 }
 
 /// Two chunks of rows; some in the first leave the range where a fused multiply-add is exact without branches.
-fn batch_hash(set: InstructionSet) -> u64 {
+fn batch_hash(set: InstructionSet, laws: &[(String, WallLaw)]) -> u64 {
     const ROWS: usize = 131;
     let at = |i: usize, k: usize| ((i * 7_919 + k * 104_729) % 65_521) as f64 / 65_521.0;
     let column = |f: &dyn Fn(usize) -> f64| (0..ROWS).map(f).collect::<Vec<f64>>();
@@ -126,7 +128,7 @@ fn batch_hash(set: InstructionSet) -> u64 {
     };
     let mut hash = Hash(0xcbf2_9ce4_8422_2325);
     // every third combination has every normal and every tangential law
-    for (_, law) in common::all_laws().iter().step_by(3) {
+    for (_, law) in laws.iter().step_by(3) {
         let mut columns = [const { [0.0; ROWS] }; 5];
         let [n, t, w, e, ratio] = &mut columns;
         let mut rebound = Rebound { restitution: Some(e), impulse_ratio: Some(ratio), ..Rebound::new(n, t, w) };
@@ -140,6 +142,8 @@ fn batch_hash(set: InstructionSet) -> u64 {
 fn batches_have_their_bits_on_every_instruction_set() {
     for set in InstructionSet::available() {
         println!("{set:?}");
-        assert_eq!(batch_hash(set), 0x3029_3494_6bc6_34e1, "{set:?}");
+        let (first, dahneke) = common::all_laws().split_at(200);
+        assert_eq!(batch_hash(set, first), 0x3029_3494_6bc6_34e1, "{set:?}");
+        assert_eq!(batch_hash(set, dahneke), 0x4c28_ff77_b403_5afd, "{set:?}");
     }
 }

@@ -190,17 +190,30 @@ fn table() -> String {
     rows
 }
 
-#[test]
-fn the_documentation_lists_the_keys() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/wall-law.md");
-    let text = std::fs::read_to_string(path).expect("docs/wall-law.md");
-    let (begin, end) = ("<!-- keys: from the registry -->\n", "<!-- end of keys -->\n");
-    let start = text.find(begin).expect("the table's beginning") + begin.len();
-    let stop = text.find(end).expect("the table's end");
-    let wanted = table();
-    if std::env::var_os("CAROM_WRITE_DOCS").is_some() {
-        std::fs::write(path, format!("{}{wanted}{}", &text[..start], &text[stop..])).expect("written");
-        return;
+/// Likewise, of the losses.
+fn losses() -> String {
+    let mut rows = String::from("| name | kind | takes |\n|---|---|---|\n");
+    for loss in Loss::ALL {
+        rows += &format!("| `{}` | {} | {} |\n", loss.name(), loss.kind(), loss.about());
     }
-    assert_eq!(&text[start..stop], wanted, "run with CAROM_WRITE_DOCS=1 to write it");
+    rows
+}
+
+#[test]
+fn the_documentation_lists_keys_and_losses() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/wall-law.md");
+    let mut text = std::fs::read_to_string(path).expect("docs/wall-law.md");
+    for (what, wanted) in [("keys", table()), ("losses", losses())] {
+        let (begin, end) = (format!("<!-- {what}: from the registry -->\n"), format!("<!-- end of {what} -->\n"));
+        let start = text.find(&begin).expect("the table's beginning") + begin.len();
+        let stop = text.find(&end).expect("the table's end");
+        if std::env::var_os("CAROM_WRITE_DOCS").is_some() {
+            text.replace_range(start..stop, &wanted);
+        } else {
+            assert_eq!(&text[start..stop], wanted, "run with CAROM_WRITE_DOCS=1 to write it");
+        }
+    }
+    if std::env::var_os("CAROM_WRITE_DOCS").is_some() {
+        std::fs::write(path, text).expect("written");
+    }
 }

@@ -3,6 +3,7 @@
 
 mod common;
 
+use carom::normal::Loss;
 use carom::{Fate, Impact, Outcome, WallLaw};
 use common::{energy, law};
 
@@ -118,5 +119,15 @@ fn every_law_keeps_its_invariants() {
             }
         }
         assert!(met > count / 2, "only {met} of {count} were impacts, seed {seed}: {text}");
+    }
+}
+
+#[test]
+fn every_registered_loss_is_among_the_laws() {
+    for loss in Loss::ALL {
+        let tried = common::all_laws().iter().any(|(_, law)| {
+            matches!(law.normal(), carom::normal::NormalLaw::Ledger(l) if l.terms().any(|t| t.loss() == *loss))
+        });
+        assert!(tried || *loss == Loss::AdhesionDamping, "{} is in no law of tests/common", loss.name());
     }
 }

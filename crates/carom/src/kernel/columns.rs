@@ -348,6 +348,8 @@ fn along_the_wall<F: Fma, const MORE: bool>(
     out: &mut Out,
     between: &Between,
 ) -> bool {
+    // a copy that nothing written can overlap, so that the loops may keep it in registers
+    let shape = &{ *tables.shape };
     let one = |_: usize| 1.0;
     let resolved = |i: usize| between.friction_share[i];
     match (kernel.tangential, &kernel.normal) {
@@ -358,10 +360,10 @@ fn along_the_wall<F: Fma, const MORE: bool>(
             rub::<_, _, MORE>(f, &Coulomb { friction, beta }, rows, out, &between.left, one)
         }
         (Tangential::MicroSlip(slip), NormalLaw::Resolved(_)) => {
-            rub::<_, _, MORE>(f, &Shaped { slip, shape: tables.shape }, rows, out, &between.left, resolved)
+            rub::<_, _, MORE>(f, &Shaped { slip, shape }, rows, out, &between.left, resolved)
         }
         (Tangential::MicroSlip(slip), _) => {
-            rub::<_, _, MORE>(f, &Shaped { slip, shape: tables.shape }, rows, out, &between.left, one)
+            rub::<_, _, MORE>(f, &Shaped { slip, shape }, rows, out, &between.left, one)
         }
         (Tangential::Restitution(curve), _) => {
             let mut fine = true;

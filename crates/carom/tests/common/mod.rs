@@ -49,6 +49,8 @@ pub fn normal_laws() -> Vec<String> {
         "sphere = \"stainless-steel\"\nsurface = \"silicon\"\nnormal = \"ea\"\nroughness = \"1 nm\"\nroughness_model = \"fuller-tabor\"\nasperity_radius = \"50 nm\"\n".into(),
         steel("normal = \"resolved\""),
         steel("normal = \"resolved\"\nadhesion = \"reversible\"\nadhesion_damping = 1.3\nhertz_damping = 0.007"),
+        table("normal = \"dahneke\"\nrestitution = 0.95\nwell_depth = \"1e-16 J\"\nwell_depth_out = \"3e-16 J\""),
+        table("normal = \"dahneke\"\nrestitution = 0.9\nhamaker_constant = \"1e-19 J\"\nequilibrium_spacing = \"0.4 nm\""),
     ]
 }
 
