@@ -73,6 +73,10 @@ impl<D: Domain> Walk<'_, D> {
                 let standing = crew.lanes[l].standing;
                 match begun.begin() {
                     Some(Ending::Rests) => after = after.at_rest(hit),
+                    // the criterion of incipient motion says which way: taken off, or held by adhesion
+                    _ if matches!(self.behaviors.get(hit.wall), Some(Behavior::Removal(..))) => {
+                        after = after.at_rest(hit)
+                    }
                     // wedged: no time passes, whatever it does
                     Some(_) if standing > WEDGED => after = after.at_rest(hit),
                     None if standing > 2 * WEDGED => after = after.at_rest(hit),

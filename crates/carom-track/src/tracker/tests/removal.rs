@@ -55,10 +55,9 @@ fn a_flow_faster_than_the_critical_one_removes_and_a_slower_one_does_not() {
 fn the_flows_own_friction_velocity_counts_where_none_is_given() {
     let flow = Channel::new(Profile::Turbulent, 0.03, 10.0, &Fluid::default()).unwrap();
     let own = flow.friction_velocity();
-    // on the roughest wall adhesion does not catch it: it rolls on with the flow
-    for (factor, fate) in [(1.0, Fate::Captured), (0.002, Fate::Sliding)] {
+    for (factor, fate) in [(1.0, Fate::Captured), (0.002, Fate::Removed)] {
         let text = format!("{ADHESIVE}roughness_factor = {factor}\n");
-        assert_eq!(own > held(&text).rolling.friction_velocity, fate == Fate::Sliding, "{own}");
+        assert_eq!(own > held(&text).rolling.friction_velocity, fate == Fate::Removed, "{own}");
         let log = fall_on(&text, Some(Removal::default()));
         assert!(log.ends.iter().all(|e| e.fate == fate), "{factor}: {:?}", log.ends[0]);
     }
