@@ -6,7 +6,7 @@ use carom::material::Library;
 use carom_report::plot::Legend;
 use carom_report::{Axis, Color, Plot, Series};
 use carom_track::Case;
-use carom_track::record::{End, ImpactRecord, Sink};
+use carom_track::record::{End, Fate, ImpactRecord, Sink};
 use carom_track::tracker::Particle;
 use serde::Serialize;
 use std::path::Path;
@@ -39,7 +39,7 @@ pub struct Way {
     pub first_floor_impact: Option<f64>,
     /// How it ends.
     pub fate: &'static str,
-    /// Where along the tunnel it ends, m.
+    /// Where along the tunnel its flight ends, m: captured, or bouncing no more and sliding on for as long as it is followed.
     pub end: f64,
     /// Along the tunnel, m.
     #[serde(skip)]
@@ -112,7 +112,10 @@ fn track(
             impacts_stated: stated(figure, walls, end.particle.diameter),
             first_floor_impact: mine.iter().find(|i| i.normal[1] > 0.5).map(|i| i.position[0]),
             fate: end.fate.name(),
-            end: end.position[0],
+            end: match (end.fate, mine.last()) {
+                (Fate::Sliding, Some(last)) => last.position[0],
+                _ => end.position[0],
+            },
             x: line.iter().map(|p| p.1).collect(),
             y: line.iter().map(|p| p.2).collect(),
         }
