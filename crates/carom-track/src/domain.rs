@@ -61,6 +61,7 @@ pub trait Domain: Sync {
     fn edge(&self, here: Self::Here, path: &Path) -> Next<Self::Here>;
 
     /// What comes first on the path of a sphere of that radius.
+    #[inline(always)]
     fn first(&self, here: Self::Here, path: &Path, radius: f64) -> Next<Self::Here> {
         let edge = self.edge(here, path);
         if let Next::Longest(_) = edge {
@@ -167,7 +168,11 @@ impl Domain for Analytic {
         ahead
     }
 
+    #[inline(always)]
     fn edge(&self, here: Piece, path: &Path) -> Next<Piece> {
+        if self.flow.is_one_piece() {
+            return Next::Clear;
+        }
         let reach = self.flow.reach(here, path.start);
         if reach < f64::INFINITY {
             let furthest = path.points.iter().fold(0.0f64, |m, p| m.max(dot(*p, *p))).sqrt();

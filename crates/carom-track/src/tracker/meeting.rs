@@ -2,7 +2,7 @@
 
 #![allow(clippy::needless_range_loop, reason = "one index runs through several arrays of lanes or components")]
 
-use super::contact::Ending;
+use super::contact::{Contact, Ending};
 use super::crew::Crew;
 use super::lane::{Lane, trace};
 use super::walk::finish;
@@ -63,26 +63,13 @@ impl<D: Domain> Walk<'_, D> {
         }
         let mut after = self.outcome(crew, l, hit, v, spin);
         put(crew, l, hit.meeting.position, after.velocity, after.spin);
-        let mut contact = None;
+        let mut contact = None::<Contact<'_, D>>;
         if after.event == Event::Rebound {
             if self.has_chance() {
                 self.renew(crew, l, theta * h);
             }
             if after.bounces && (crew.lanes[l].standing > WEDGED || self.settles(crew, l, hit, &after)) {
-                let mut begun = self.contact(crew, l, hit, &after);
-                let standing = crew.lanes[l].standing;
-                match begun.begin() {
-                    Some(Ending::Rests) => after = after.at_rest(hit),
-                    // the criterion of incipient motion says which way: taken off, or held by adhesion
-                    _ if matches!(self.behaviors.get(hit.wall), Some(Behavior::Removal(..))) => {
-                        after = after.at_rest(hit)
-                    }
-                    // wedged: no time passes, whatever it does
-                    Some(_) if standing > WEDGED => after = after.at_rest(hit),
-                    None if standing > 2 * WEDGED => after = after.at_rest(hit),
-                    Some(_) => {}
-                    None => contact = Some(begun),
-                }
+                contact = self.begin_contact(crew, l, hit, &mut after);
                 put(crew, l, hit.meeting.position, after.velocity, after.spin);
             }
         }
@@ -97,6 +84,30 @@ impl<D: Domain> Walk<'_, D> {
         } else if let Some(contact) = contact {
             self.stay(crew, l, contact, sink);
         }
+    }
+
+    /// What a sphere does whose bounce dies: it stays where it is, flies on, or begins its contact motion.
+    #[inline(never)]
+    fn begin_contact<'b, const W: usize>(
+        &'b self,
+        crew: &Crew<W, D::Here>,
+        l: usize,
+        hit: &Hit,
+        after: &mut After,
+    ) -> Option<Contact<'b, D>> {
+        let mut begun = self.contact(crew, l, hit, after);
+        let standing = crew.lanes[l].standing;
+        match begun.begin() {
+            Some(Ending::Rests) => after.rest(hit),
+            // the criterion of incipient motion says which way: taken off, or held by adhesion
+            _ if matches!(self.behaviors.get(hit.wall), Some(Behavior::Removal(..))) => after.rest(hit),
+            // wedged: no time passes, whatever it does
+            Some(_) if standing > WEDGED => after.rest(hit),
+            None if standing > 2 * WEDGED => after.rest(hit),
+            Some(_) => {}
+            None => return Some(begun),
+        }
+        None
     }
 
     #[inline(always)]
@@ -214,6 +225,7 @@ impl<D: Domain> Walk<'_, D> {
 }
 
 /// What is left of an impact on a wall whose given restitution is zero: the motion along it.
+#[inline(never)]
 fn glance(law: &WallLaw, impact: &Impact, out: &carom::Outcome) -> Option<After> {
     let NormalLaw::Table(_) = law.normal() else { return None };
     let n = impact.normal;
@@ -252,8 +264,8 @@ fn glance(law: &WallLaw, impact: &Impact, out: &carom::Outcome) -> Option<After>
 
 impl After {
     /// It stays where it hit.
-    fn at_rest(self, hit: &Hit) -> Self {
-        Self { event: Event::Settle, velocity: hit.wall_velocity, spin: [0.0; 3], ..self }
+    fn rest(&mut self, hit: &Hit) {
+        (self.event, self.velocity, self.spin) = (Event::Settle, hit.wall_velocity, [0.0; 3]);
     }
 }
 
@@ -285,6 +297,7 @@ pub(super) fn put<const W: usize, H>(crew: &mut Crew<W, H>, l: usize, x: Vec3, v
 
 /// Speeds and spin before and after, relative to the wall. Spin is positive when it rolls forward along the tangential
 /// velocity (the outgoing one where there is none coming in).
+#[inline(always)]
 pub(super) fn record(lane: &Lane, time: f64, hit: &Hit, v: Vec3, spin: Vec3, after: &After) -> ImpactRecord {
     let n = hit.meeting.normal;
     let split = |v: Vec3| {

@@ -32,6 +32,7 @@ impl<D: Domain> Walk<'_, D> {
     }
 
     /// Follows a lane's contact motion to its end.
+    #[inline(never)]
     pub(super) fn stay<const W: usize>(
         &self,
         crew: &mut Crew<W, D::Here>,

@@ -39,8 +39,10 @@ impl<D: Domain> Walk<'_, D> {
             finish(crew, l, Fate::Airborne, None, sink);
             return true;
         }
-        let place = self.dynamics.need_place(self.domain);
-        if place || !self.dynamics.is_plain() || (lasts.is_finite() && crew.lanes[l].trace) {
+        if self.dynamics.need_place(self.domain)
+            || !self.dynamics.is_plain()
+            || (lasts.is_finite() && crew.lanes[l].trace)
+        {
             return false;
         }
         let weight = crew.bodies.weight.map(|w| w[l]);

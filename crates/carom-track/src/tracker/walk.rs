@@ -98,10 +98,13 @@ impl<D: Domain> Walk<'_, D> {
             for l in 0..W {
                 rest[l] = mask(crew.busy[l]) & !goes[l];
             }
+            let mut due = [0; W];
             for l in 0..W {
-                if crew.steps[l] % LOOK == 0 && goes[l] != 0 {
-                    self.is_done(&mut crew, l, sink);
-                }
+                due[l] = mask(crew.steps[l] % LOOK == 0) & goes[l];
+            }
+            let mut due = bits(&due);
+            while let Some(l) = take_lowest(&mut due) {
+                self.is_done(&mut crew, l, sink);
             }
             let found = self.find_first(&crew, &ahead, &rest, &mut met);
             let mut rest = bits(&rest);
@@ -262,6 +265,7 @@ impl<D: Domain> Walk<'_, D> {
     }
 
     /// Ends a step of one lane at the edge of a piece, and puts it into the next one.
+    #[inline(never)]
     fn cross<const W: usize>(
         &self,
         crew: &mut Crew<W, D::Here>,
