@@ -127,6 +127,7 @@ impl Domain for Analytic {
         self.flow.piece(x)
     }
 
+    #[inline(always)]
     fn fluid(&self, here: Piece, _time: f64, x: Vec3) -> Local {
         self.flow.sample_in(here, x)
     }

@@ -10,6 +10,8 @@ use crate::flow::Fluid;
 use crate::force::{Drag, Eddy, Forces, RandomWalk, Sphere, relaxation_time};
 use crate::integrate::{Lanes, Lanes3, Motion, Rates};
 use crate::vector::{Vec3, add, dot};
+use carom::instructions::{Work, run_scalar};
+use carom::math::Fma;
 
 /// What acts on the spheres of a run.
 #[derive(Clone, Copy, Debug)]
@@ -200,6 +202,7 @@ impl Dynamics {
         drag * dot(slip, normal).abs() - dot(weight, normal)
     }
 
+    #[inline(always)]
     fn full_rates<const W: usize, D: Domain>(
         &self,
         domain: &D,
@@ -210,12 +213,43 @@ impl Dynamics {
         l: usize,
     ) -> crate::force::Rates {
         let at = |v: &Lanes3<W>| -> Vec3 { [v[0][l], v[1][l], v[2][l]] };
-        let mut local = domain.fluid(here, time, at(&m.x));
-        if let (Some(walk), Some(eddy)) = (&self.random_walk, &bodies.eddy[l]) {
-            let gust = walk.fluctuation(eddy.deviates, &local, self.fluid.kinematic_viscosity());
+        let (x, v, spin) = (at(&m.x), at(&m.v), at(&m.spin));
+        run_scalar(AllForces {
+            dynamics: self,
+            domain,
+            place: (here, time, x),
+            sphere: &bodies.sphere[l],
+            eddy: &bodies.eddy[l],
+            v,
+            spin,
+        })
+    }
+}
+
+/// Every force on one sphere: compiled once for processors with a fused multiply-add and once for those without.
+struct AllForces<'a, D: Domain> {
+    dynamics: &'a Dynamics,
+    domain: &'a D,
+    place: (D::Here, f64, Vec3),
+    sphere: &'a Sphere,
+    eddy: &'a Option<Eddy>,
+    v: Vec3,
+    spin: Vec3,
+}
+
+impl<D: Domain> Work for AllForces<'_, D> {
+    type Output = crate::force::Rates;
+
+    #[inline(always)]
+    fn run<F: Fma, const LANES: usize>(self, _: F) -> Self::Output {
+        let Self { dynamics, domain, place: (here, time, x), sphere, eddy, v, spin } = self;
+        let fluid = &dynamics.fluid;
+        let mut local = domain.fluid(here, time, x);
+        if let (Some(walk), Some(eddy)) = (&dynamics.random_walk, eddy) {
+            let gust = walk.fluctuation(eddy.deviates, &local, fluid.kinematic_viscosity());
             local.velocity = add(local.velocity, gust);
         }
-        self.forces.rates(&self.fluid, &bodies.sphere[l], &local, at(&m.v), at(&m.spin))
+        dynamics.forces.rates(fluid, sphere, &local, v, spin)
     }
 }
 

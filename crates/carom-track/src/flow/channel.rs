@@ -179,6 +179,7 @@ impl Channel {
     }
 
     /// Everything known at `x`, by the formulas of a piece.
+    #[inline(always)]
     pub fn sample_in(&self, piece: Piece, x: [f64; 3]) -> Local {
         let d = self.wall_distance(piece, x[1]);
         let side = if self.is_lower(piece, x[1]) { 1.0 } else { -1.0 };

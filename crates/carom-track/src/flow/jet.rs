@@ -115,6 +115,7 @@ impl SlotJet {
     }
 
     /// Everything known at `x`, by the formulas of a piece.
+    #[inline(always)]
     pub fn sample_in(&self, piece: Piece, x: [f64; 3]) -> Local {
         let mut gradient = [[0.0; 3]; 3];
         if piece.index() == INSIDE {
@@ -310,6 +311,7 @@ impl RoundJet {
     }
 
     /// Everything known at `x`, by the formulas of a piece.
+    #[inline(always)]
     pub fn sample_in(&self, piece: Piece, x: [f64; 3]) -> Local {
         let rest = self.rest(piece, x[1]);
         let radial = 1.5 * self.speed / self.thickness * rest * rest;

@@ -241,6 +241,7 @@ impl Flow {
     }
 
     /// Everything known of the fluid at `x`, by the formulas of a piece.
+    #[inline(always)]
     pub fn sample_in(&self, piece: Piece, x: [f64; 3]) -> Local {
         match self {
             Self::Still => Local::uniform([0.0; 3]),

@@ -11,7 +11,7 @@
 //! # Ok::<(), carom_track::flow::FlowError>(())
 //! ```
 
-use super::piece::{Exit, Layers, Piece, soonest};
+use super::piece::{Exit, Layers, Piece};
 use super::profile::{Section, Shape, WallTurbulence, wall_layers};
 use super::{FlowError, Fluid, Local, Profile};
 use crate::geometry::{Bernstein, Path};
@@ -136,13 +136,23 @@ impl Pipe {
         Exit::earlier(down, up)
     }
 
-    /// How soon a straight path at `v` leaves a piece, s; no sooner at least.
+    /// How soon a straight path at `v` leaves a piece, s: a root of its squared distance from the axis.
     pub fn soonest(&self, piece: Piece, x: [f64; 3], v: [f64; 3]) -> f64 {
         let radial = self.radial(x);
-        let across = norm(sub(v, scale(self.axis, dot(v, self.axis))));
+        let across = sub(v, scale(self.axis, dot(v, self.axis)));
+        let (square, outwards) = (dot(across, across), dot(radial, across));
         let r = norm(radial);
         let [low, high] = self.layers.bounds(piece.index());
-        soonest(r, across, [low, high]).min(soonest(r, -across, [low, high]))
+        // r² + 2 (x·v) t + v² t² = edge², in the form that keeps its digits; no root or one behind is none
+        let meets = |edge: f64, way: f64| {
+            let gap = (r - edge) * (r + edge);
+            let root = (outwards * outwards - square * gap).sqrt();
+            let time =
+                if way * outwards > 0.0 { -gap / (outwards + way * root) } else { (way * root - outwards) / square };
+            if time > 0.0 { time } else { f64::INFINITY }
+        };
+        let inner = if low > 0.0 && outwards < 0.0 { meets(low, -1.0) } else { f64::INFINITY };
+        inner.min(if high < f64::INFINITY { meets(high, 1.0) } else { f64::INFINITY })
     }
 
     /// Speed along the axis at a distance from it, by the formula of a piece.
@@ -176,6 +186,7 @@ impl Pipe {
     }
 
     /// Everything known at `x`, by the formulas of a piece.
+    #[inline(always)]
     pub fn sample_in(&self, piece: Piece, x: [f64; 3]) -> Local {
         let radial = self.radial(x);
         let r = norm(radial);
@@ -265,6 +276,32 @@ mod tests {
         let laminar = Pipe::new(Profile::Laminar, [0.0; 3], [0.0, 0.0, 1.0], 0.05, 0.03, &air_like()).unwrap();
         let f = 8.0 * (laminar.friction_velocity() / 0.03).powi(2);
         assert!((f / (64.0 / laminar.reynolds()) - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_straight_path_leaves_a_layer_when_its_distance_says_so() {
+        let pipe = Pipe::new(Profile::Turbulent, [0.0; 3], [1.0, 0.0, 0.0], 0.05, 3.0, &air_like()).unwrap();
+        let edges = pipe.layers.edges();
+        for (i, bounds) in edges.windows(2).enumerate() {
+            let [low, high] = [bounds[0], bounds[1]];
+            for share in [1e-12, 0.1, 0.5, 0.9, 1.0 - 1e-12] {
+                let r = low + share * (high - low);
+                for angle in (0..64).map(|k| f64::from(k) * 0.1) {
+                    let v = [0.3, 2.0 * angle.cos(), 2.0 * angle.sin()];
+                    let time = pipe.soonest(Piece::layer(i + 1), [0.7, r, 0.0], v);
+                    let distance = |t: f64| (r + v[1] * t).hypot(v[2] * t);
+                    let end = distance(time);
+                    let edge = if (end - low).abs() < (end - high).abs() { low } else { high };
+                    assert!((end - edge).abs() < 1e-13, "{i} {share} {angle}: {end} {low} {high}");
+                    // and not before; grazing costs digits of the time, not of the distance
+                    let inside = |t: f64| (low - 1e-13..=high + 1e-13).contains(&distance(t));
+                    assert!((0..=100).all(|k| inside(time * f64::from(k) * 0.01)), "{i} {share} {angle}");
+                }
+            }
+        }
+        // along the edge it never ends next to it
+        let along = pipe.soonest(Piece::layer(1), [0.0, edges[0], 0.0], [1.0, 0.0, 2.0]);
+        assert!((along - (edges[1] * edges[1] - edges[0] * edges[0]).sqrt() / 2.0).abs() < 1e-12);
     }
 
     #[test]

@@ -103,6 +103,7 @@ impl WallTurbulence {
     }
 
     /// dU/dy at the distance `y` from the wall, 1/s.
+    #[inline(always)]
     pub fn slope(&self, y: f64) -> f64 {
         let y = y.max(0.0);
         let (y_plus, eta) = (y * self.per_wall_unit, 1.0 - y / self.half);
@@ -114,6 +115,7 @@ impl WallTurbulence {
     }
 
     /// Turbulent kinetic energy (m²/s²) and its dissipation rate (m²/s³) at the distance `y` from the wall.
+    #[inline(always)]
     pub fn turbulence(&self, y: f64) -> (f64, f64) {
         let (y_plus, outer) = (y * self.per_wall_unit, exp(-y / self.half));
         let damping = 1.0 - exp(-y_plus / 22.0);

@@ -72,6 +72,7 @@ impl Stagnation {
     }
 
     /// Everything known at `x`.
+    #[inline(always)]
     pub fn sample(&self, x: [f64; 3]) -> Local {
         Local {
             wall_distance: dot(sub(x, self.point), self.normal).max(0.0),

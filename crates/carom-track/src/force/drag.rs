@@ -105,7 +105,7 @@ fn power_law(square: f64) -> f64 {
 }
 
 /// f of Morsi & Alexander.
-#[inline]
+#[inline(always)]
 pub fn morsi_alexander(reynolds: f64) -> f64 {
     const PIECES: [(f64, [f64; 3]); 7] = [
         (1.0, [3.69, 22.73, 0.0903]),
@@ -131,7 +131,7 @@ pub fn reynolds(fluid: &Fluid, diameter: f64, relative_speed: f64) -> f64 {
 }
 
 /// τ_p = ρ_p d² C_c/(18 μ), s.
-#[inline]
+#[inline(always)]
 pub fn relaxation_time(fluid: &Fluid, sphere: &Sphere, slip: f64) -> f64 {
     sphere.density * sphere.diameter * sphere.diameter * slip / (18.0 * fluid.viscosity)
 }

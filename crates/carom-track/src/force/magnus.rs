@@ -27,6 +27,7 @@ use carom::math::{exp, pow};
 const LEAST_SPIN: f64 = 0.02;
 
 /// Acceleration (m/s²) at the relative velocity u − v (m/s) and the relative rotation Ω = ½∇ × u − ω_p (rad/s).
+#[inline(always)]
 pub fn acceleration(fluid: &Fluid, sphere: &Sphere, relative: [f64; 3], rotation: [f64; 3]) -> [f64; 3] {
     let d = sphere.diameter;
     let re = reynolds(fluid, d, norm(relative));
@@ -42,6 +43,7 @@ pub fn acceleration(fluid: &Fluid, sphere: &Sphere, relative: [f64; 3], rotation
 }
 
 /// Lift over Rubinow & Keller's.
+#[inline(always)]
 pub fn reduction(reynolds: f64, rotational_reynolds: f64) -> f64 {
     let fade = exp(-0.05684 * pow(rotational_reynolds, 0.4) * pow(reynolds, 0.3));
     fade + 0.45 * (1.0 - fade) * reynolds / rotational_reynolds

@@ -91,6 +91,7 @@ pub struct Rates {
 impl Forces {
     /// Whether only drag, gravity and buoyancy act: then the fluid's velocity is all that is needed of the flow, and the
     /// spin neither changes nor matters in flight.
+    #[inline(always)]
     pub fn is_plain(&self) -> bool {
         !(self.saffman || self.magnus || self.rotational_drag || self.pressure_gradient || self.added_mass)
     }
@@ -98,6 +99,7 @@ impl Forces {
     /// dv/dt and dω/dt of a sphere at velocity `v` (m/s) and spin (rad/s) where the fluid is as `local` says.
     ///
     /// With added mass the equation of motion is solved for dv/dt. `local.velocity` may hold a turbulent fluctuation.
+    #[inline(always)]
     pub fn rates(&self, fluid: &Fluid, sphere: &Sphere, local: &Local, v: [f64; 3], spin: [f64; 3]) -> Rates {
         let relative = sub(local.velocity, v);
         let speed = norm(relative);

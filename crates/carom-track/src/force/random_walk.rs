@@ -168,6 +168,7 @@ impl RandomWalk {
     /// What a place does to the eddy of a sphere of a relaxation time (s), in a fluid of kinematic viscosity `nu` (m²/s).
     ///
     /// With drift the fluid is sampled four times, at `x` and close by.
+    #[inline(always)]
     pub fn surroundings(
         &self,
         fluid: impl Fn([f64; 3]) -> Local,
@@ -188,6 +189,7 @@ impl RandomWalk {
     }
 
     /// T_L (s) and L_e (m) far from walls.
+    #[inline(always)]
     fn scales(&self, local: &Local, nu: f64) -> (f64, f64) {
         let kolmogorov = (nu / local.epsilon).sqrt();
         let time = self.time_scale * (local.k / local.epsilon).max(6.0 * kolmogorov);
@@ -199,6 +201,7 @@ impl RandomWalk {
     }
 
     /// ∇·S = Σ_d ∂(S d)/∂d over three directions at right angles, 1/s.
+    #[inline(always)]
     fn divergence(&self, fluid: &impl Fn(Vec3) -> Local, x: Vec3, local: &Local, nu: f64, length: f64) -> Vec3 {
         let step = REACH * local.wall_distance.min(length).max(REACH * length);
         directions(local).iter().fold([0.0; 3], |sum, d| {
@@ -210,12 +213,14 @@ impl RandomWalk {
 
     /// How long a sphere of a relaxation time (s) that moves at a speed (m/s) against the fluid takes to cross an eddy of
     /// a length (m), s; infinite if it never does.
+    #[inline(always)]
     pub fn crossing(&self, length: f64, relaxation_time: f64, relative_speed: f64) -> f64 {
         let share = length / (relaxation_time * relative_speed);
         if share < 1.0 { -relaxation_time * ln(1.0 - share) } else { f64::INFINITY }
     }
 
     /// u' = S ζ (m/s) where the mean flow is `local`: to be added to the mean velocity.
+    #[inline(always)]
     pub fn fluctuation(&self, deviates: [f64; 3], local: &Local, nu: f64) -> [f64; 3] {
         if local.k <= 0.0 {
             return [0.0; 3];
@@ -231,6 +236,7 @@ impl RandomWalk {
 }
 
 /// Along the flow, along the wall's normal, and across; x, y, z where no wall is known.
+#[inline(always)]
 fn directions(local: &Local) -> [Vec3; 3] {
     let n = local.wall_normal;
     if dot(n, n) == 0.0 {

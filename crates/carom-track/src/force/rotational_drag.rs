@@ -16,6 +16,7 @@ use crate::flow::Fluid;
 use crate::vector::{norm, scale};
 
 /// dω_p/dt (rad/s²) at the relative rotation Ω = ½∇ × u − ω_p (rad/s).
+#[inline(always)]
 pub fn spin_rate(fluid: &Fluid, sphere: &Sphere, rotation: [f64; 3]) -> [f64; 3] {
     let d = sphere.diameter;
     let h = torque_factor(reynolds(fluid, d, norm(rotation)));
@@ -23,13 +24,13 @@ pub fn spin_rate(fluid: &Fluid, sphere: &Sphere, rotation: [f64; 3]) -> [f64; 3]
 }
 
 /// ρ_f d²|Ω|/μ for a diameter (m) and a relative rotation (rad/s).
-#[inline]
+#[inline(always)]
 pub fn reynolds(fluid: &Fluid, diameter: f64, rotation: f64) -> f64 {
     rotation * (diameter * diameter * fluid.density / fluid.viscosity)
 }
 
 /// Torque over that of creeping flow.
-#[inline]
+#[inline(always)]
 pub fn torque_factor(rotational_reynolds: f64) -> f64 {
     const CREEPING: f64 = 64.0 * std::f64::consts::PI;
     ((12.9 * rotational_reynolds.sqrt() + 128.4) * (1.0 / CREEPING)).max(1.0)

@@ -30,6 +30,7 @@ use carom::math::exp;
 const LEAST_BETA: f64 = 0.005;
 
 /// Acceleration (m/s²) at the relative velocity u − v (m/s) in fluid of a vorticity ∇ × u (1/s).
+#[inline(always)]
 pub fn acceleration(fluid: &Fluid, sphere: &Sphere, relative: [f64; 3], vorticity: [f64; 3]) -> [f64; 3] {
     let (speed, shear) = (norm(relative), norm(vorticity));
     if !(speed > 0.0 && shear > 0.0) {
@@ -46,6 +47,7 @@ pub fn acceleration(fluid: &Fluid, sphere: &Sphere, relative: [f64; 3], vorticit
 }
 
 /// Lift over Saffman's.
+#[inline(always)]
 pub fn mei(reynolds: f64, beta: f64) -> f64 {
     let beta = beta.min(0.4);
     if reynolds <= 40.0 {

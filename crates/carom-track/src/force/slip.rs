@@ -28,7 +28,7 @@ pub enum Slip {
 
 impl Slip {
     /// C_c ≥ 1 for a diameter and a mean free path (m).
-    #[inline]
+    #[inline(always)]
     pub fn factor(self, diameter: f64, mean_free_path: f64) -> f64 {
         let (a, b, c) = match self {
             Self::None => return 1.0,

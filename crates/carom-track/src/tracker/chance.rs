@@ -6,9 +6,12 @@
 use super::Walk;
 use super::crew::{Crew, motion_of};
 use crate::domain::Domain;
+use crate::flow::Local;
 use crate::force::{Eddy, RandomWalk, Surroundings, brownian_amplitude};
 use crate::random::{Purpose, Stream};
-use crate::vector::{add, norm, sub};
+use crate::vector::{Vec3, add, norm, sub};
+use carom::instructions::{Work, run_scalar};
+use carom::math::Fma;
 
 /// The present eddy and kick and how many there were.
 #[derive(Clone, Copy, Debug)]
@@ -39,6 +42,11 @@ impl Chance {
         kicks: 0,
     };
 
+    /// The eddy in the middle of a step.
+    pub fn midway(&self, step: f64) -> Eddy {
+        self.eddy.middle(&self.place, step)
+    }
+
     /// The next change, s.
     #[inline(always)]
     pub fn next(&self) -> f64 {
@@ -61,8 +69,7 @@ impl<D: Domain> Walk<'_, D> {
 
     /// Gives a lane's eddy the deviates of the middle of the step it is about to try.
     pub(super) fn lean<const W: usize>(&self, crew: &mut Crew<W, D::Here>, l: usize) {
-        let chance = &crew.lanes[l].chance;
-        crew.bodies.eddy[l] = Some(chance.eddy.middle(&chance.place, crew.h[l]));
+        crew.bodies.eddy[l] = Some(crew.lanes[l].chance.midway(crew.h[l]));
         crew.stale[l] = true;
     }
 
@@ -89,7 +96,7 @@ impl<D: Domain> Walk<'_, D> {
         let tau = self.dynamics.relaxation_time(&crew.bodies.sphere[l]);
         let (piece, time) = (crew.here[l], crew.time[l]);
         let fluid = |x| self.domain.fluid(piece, time, x);
-        let here = || walk.surroundings(fluid, x, nu, tau);
+        let here = || run_scalar(Around { walk, fluid, x, nu, tau });
         let lane = &mut crew.lanes[l];
         let (number, chance) = (lane.particle.number, &mut lane.chance);
         // a plain walk's eddy lives as long as where it was met, once there is turbulence
@@ -108,8 +115,7 @@ impl<D: Domain> Walk<'_, D> {
                 chance.eddies = chance.eddies.wrapping_add(1);
                 (chance.eddies == 1, draws.normals(), draws.open_uniform())
             });
-            let local = fluid(x);
-            let gust = add(local.velocity, walk.fluctuation(chance.eddy.deviates, &local, nu));
+            let gust = run_scalar(Gust { walk, fluid, x, nu, deviates: chance.eddy.deviates });
             chance.crossed = time + walk.crossing(chance.place.length, tau, norm(sub(gust, v)));
             crew.bodies.eddy[l] = Some(chance.eddy);
         }
@@ -136,5 +142,42 @@ impl<D: Domain> Walk<'_, D> {
             crew.bodies.kick[c][l] = size * draws.normal();
         }
         chance.kick_end = time + interval;
+    }
+}
+
+/// What a place does to an eddy; like the forces, compiled with and without a fused multiply-add.
+struct Around<'a, L> {
+    walk: &'a RandomWalk,
+    fluid: L,
+    x: Vec3,
+    nu: f64,
+    tau: f64,
+}
+
+impl<L: Fn(Vec3) -> Local> Work for Around<'_, L> {
+    type Output = Surroundings;
+
+    #[inline(always)]
+    fn run<F: Fma, const LANES: usize>(self, _: F) -> Surroundings {
+        self.walk.surroundings(self.fluid, self.x, self.nu, self.tau)
+    }
+}
+
+/// The fluid's velocity at a place, with an eddy's share.
+struct Gust<'a, L> {
+    walk: &'a RandomWalk,
+    fluid: L,
+    x: Vec3,
+    nu: f64,
+    deviates: Vec3,
+}
+
+impl<L: Fn(Vec3) -> Local> Work for Gust<'_, L> {
+    type Output = Vec3;
+
+    #[inline(always)]
+    fn run<F: Fma, const LANES: usize>(self, _: F) -> Vec3 {
+        let local = (self.fluid)(self.x);
+        add(local.velocity, self.walk.fluctuation(self.deviates, &local, self.nu))
     }
 }

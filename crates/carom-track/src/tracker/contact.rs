@@ -5,12 +5,17 @@
 //! nothing presses or the wall ends. It has settled when this motion has ended too. Between two walls it moves along their groove,
 //! and three hold it.
 //!
+//! An eddy or a kick that pushes a sphere against a wall it bounces off makes a series of ever lower bounces too. Below the height that
+//! counts as none they are this motion for as long as that push lasts: the same force along the wall, the same friction, but it never
+//! settles and no row tells of it.
+//!
 //! With p the force per mass that presses, v_s the slip of the contact point and f the friction coefficient: sliding, v' = a − f p v̂_s
 //! and ω' = (5/2)(f p/R)(n × v̂_s); rolling, the friction −(2/7) v_s' that keeps the slip zero, as long as f p is enough for it.
 
 mod surface;
 
 use super::Walk;
+use super::meeting::LOWEST;
 use super::walk::least_step;
 use crate::domain::{Domain, Hit, Next};
 use crate::dynamics::Bodies;
@@ -51,6 +56,8 @@ const LEVEL: f64 = 1e-9;
 const LIFT: f64 = 1e-10;
 /// And of the coordinates: more than their rounding.
 const ROUNDED: f64 = 8e-15;
+/// Heights that count as none by which closed gaps may move a sphere.
+const MOST_CLOSED: f64 = 10.0;
 /// Radii that a step may go along triangles: their edges are looked for four times a step.
 const STRIDE: f64 = 4.0;
 /// A step of a motion without end is long enough to call it that, s.
@@ -77,6 +84,10 @@ pub(super) struct Contact<'a, D: Domain> {
     next: f64,
     /// By how much a path is lifted off what the sphere touches, before other walls are looked for, m.
     lift: Vec3,
+    /// Its end at the latest, s.
+    until: f64,
+    /// Whether chance presses it too, for that long.
+    chance_presses: bool,
 }
 
 /// How friction acts during a step.
@@ -118,49 +129,76 @@ impl<'a, D: Domain> Contact<'a, D> {
     ) -> Self {
         (body.eddy, body.kick) = ([None], [[0.0]; 3]);
         let radius = body.radius[0];
-        let height = walk.settings.settle_height.of(radius).max(1e-9 * radius);
+        let height = walk.settings.settle_height.of(radius).max(LOWEST * radius);
         let next = 1e-3;
         let (worn, rolls, lift) = (0.0, false, [0.0; 3]);
-        Self { walk, body, injection, height, here, time, motion, steps, worn, wall, normal, rolls, next, lift }
+        let (until, chance_presses) = (walk.settings.until, false);
+        Self {
+            walk,
+            body,
+            injection,
+            height,
+            here,
+            time,
+            motion,
+            steps,
+            worn,
+            wall,
+            normal,
+            rolls,
+            next,
+            lift,
+            until,
+            chance_presses,
+        }
+    }
+
+    /// With chance pressing it as `body` says, until a time.
+    pub fn pressed_by_chance(mut self, body: &Bodies<1>, until: f64) -> Self {
+        (self.body.eddy, self.body.kick) = (body.eddy, body.kick);
+        (self.until, self.chance_presses) = (until, true);
+        self
     }
 
     fn radius(&self) -> f64 {
         self.body.radius[0]
     }
 
-    /// The steady forces' acceleration and angular acceleration.
+    /// The pressing forces' acceleration and angular acceleration: the steady ones', and chance's where it presses.
     fn steady(&self, time: f64, m: &Motion) -> (Vec3, Vec3) {
         let r = self.walk.rates_at((self.here, time), &self.body, m.x, m.v, m.spin);
         let column = |v: &[[f64; 1]; 3]| [v[0][0], v[1][0], v[2][0]];
         (column(&r.a), if self.walk.dynamics.spins() { column(&r.alpha) } else { [0.0; 3] })
     }
 
-    /// The contacts that the sphere does not move off from, or into, by more than a bounce that counts as none.
-    fn contacts(&self, a: Vec3) -> Vec<Held<'a>> {
+    /// The walls that closed gaps might move the sphere into.
+    fn near(&self) -> Vec<Held<'a>> {
         let walls = self.walk.domain.walls();
-        let slow = 2.0 * self.height * norm(a);
-        let supports = walls.support(self.motion.x, self.radius(), self.height);
+        let supports = walls.support(self.motion.x, self.radius(), (1.0 + MOST_CLOSED) * self.height);
         let held = supports.iter().filter_map(|s| {
             let wall = walls.list().get(s.wall)?;
-            let v = sub(self.motion.v, wall.velocity);
-            let across = dot(v, s.normal);
-            let rounding = 1e-9 * norm(v);
-            let rub = Rub::of(self.walk.behaviors.get(s.wall), self.injection, norm(v));
-            (across.abs() <= rounding || across * across <= slow).then_some(Held {
-                index: s.wall,
-                wall,
-                normal: s.normal,
-                rub,
-                gap: s.gap,
-            })
+            let speed = norm(sub(self.motion.v, wall.velocity));
+            let rub = Rub::of(self.walk.behaviors.get(s.wall), self.injection, speed);
+            Some(Held { index: s.wall, wall, normal: s.normal, rub, gap: s.gap })
         });
         held.collect()
+    }
+
+    /// Whether a wall is within the height that counts as none, and the sphere moves off from it, or into it, by no more than such a bounce.
+    fn touches(&self, c: &Held, a: Vec3) -> bool {
+        if c.gap > self.height {
+            return false;
+        }
+        let v = sub(self.motion.v, c.wall.velocity);
+        let across = dot(v, c.normal);
+        across.abs() <= 1e-9 * norm(v) || across * across <= 2.0 * self.height * norm(a)
     }
 
     /// The surface the sphere moves on, with its velocity along it; `Err` with what it comes to instead.
     fn surface(&mut self) -> Result<Surface<'a>, Ending> {
         let (a, _) = self.steady(self.time, &self.motion);
-        let contacts = self.contacts(a);
+        let near = self.near();
+        let contacts: Vec<_> = near.iter().filter(|c| self.touches(c, a)).copied().collect();
         if contacts.is_empty() {
             return Err(Ending::Leaves(self.off()));
         }
@@ -173,10 +211,10 @@ impl<'a, D: Domain> Contact<'a, D> {
         let far = self.motion.x.iter().fold(0.0f64, |m, c| m.max(c.abs()));
         let reach = (LIFT * self.radius()).max(ROUNDED * far);
         self.lift = contacts.iter().fold([0.0; 3], |l, c| add(l, scale(c.normal, reach)));
-        self.motion.x = add(self.motion.x, surface.closing());
+        self.motion.x = add(self.motion.x, surface.closing(&near, MOST_CLOSED * self.height));
         self.motion.v = add(u, surface.along(sub(self.motion.v, u)));
         let ended = surface.list().iter().any(|c| c.rub == Rub::Ended);
-        if ended || self.is_at_rest(&surface) { Err(Ending::Rests) } else { Ok(surface) }
+        if ended || (!self.chance_presses && self.is_at_rest(&surface)) { Err(Ending::Rests) } else { Ok(surface) }
     }
 
     /// Whether it stays where it is from the beginning; what it comes to else, if it does not move along a wall at all.
@@ -186,10 +224,16 @@ impl<'a, D: Domain> Contact<'a, D> {
 
     /// Where the sphere is, exactly in contact with its wall.
     pub fn place(&self) -> Vec3 {
-        let x = self.motion.x;
+        let mut x = self.motion.x;
         let Some(wall) = self.walk.domain.walls().list().get(self.wall) else { return x };
-        let gap = wall.shape.distance(x) - wall.clearance(self.radius());
-        if gap.abs() <= self.height { sub(x, scale(self.normal, gap)) } else { x }
+        // over an edge where the wall just ended it is that height off, and not straight along the normal
+        for _ in 0..4 {
+            let gap = wall.shape.distance(x) - wall.clearance(self.radius());
+            if gap.abs() <= (1.0 + 1e-6) * self.height {
+                x = sub(x, scale(self.normal, gap));
+            }
+        }
+        x
     }
 
     /// The word for leaving by an impact on another wall.
@@ -280,7 +324,7 @@ impl<'a, D: Domain> Contact<'a, D> {
             };
             let kind = self.kind(&surface);
             self.rolls = matches!(kind, Kind::Rolls);
-            let until = self.walk.settings.until;
+            let until = self.until;
             let h = self.length(&surface).min(until - self.time);
             if h <= 0.0 || h > ENDLESS {
                 return Ending::TimeIsUp;

@@ -19,6 +19,8 @@ use carom::{Energy, Fate as LawFate, Impact, Validity, WallLaw};
 
 /// Impacts in a row without any time between them after which a sphere is wedged between walls and stays.
 const WEDGED: u32 = 64;
+/// Least height of a bounce that counts, over the radius.
+pub(super) const LOWEST: f64 = 1e-9;
 /// Time that is none, over the time since the start: some 50 units in its last place.
 const NO_TIME: f64 = 1e-14;
 
@@ -63,7 +65,7 @@ impl<D: Domain> Walk<'_, D> {
         }
         let mut after = self.outcome(crew, l, hit, v, spin);
         put(crew, l, hit.meeting.position, after.velocity, after.spin);
-        let mut contact = None::<Contact<'_, D>>;
+        let (mut contact, mut pressed) = (None::<Contact<'_, D>>, false);
         if after.event == Event::Rebound {
             if self.has_chance() {
                 self.renew(crew, l, theta * h);
@@ -71,6 +73,8 @@ impl<D: Domain> Walk<'_, D> {
             if after.bounces && (crew.lanes[l].standing > WEDGED || self.settles(crew, l, hit, &after)) {
                 contact = self.begin_contact(crew, l, hit, &mut after);
                 put(crew, l, hit.meeting.position, after.velocity, after.spin);
+            } else {
+                pressed = after.bounces && self.has_chance() && self.is_pressed_by_chance(crew, l, hit, &after);
             }
         }
         if matches!(after.event, Event::Capture | Event::Settle)
@@ -83,6 +87,8 @@ impl<D: Domain> Walk<'_, D> {
             finish(crew, l, fate, Some(hit.wall), sink);
         } else if let Some(contact) = contact {
             self.stay(crew, l, contact, sink);
+        } else if pressed {
+            self.follow_pressed(crew, l, hit, &after, sink);
         }
     }
 
@@ -215,7 +221,38 @@ impl<D: Domain> Walk<'_, D> {
             // the molecules lift it higher than that again
             return false;
         }
+        if press <= self.eddies_lift(here, &body, x, n) {
+            return false;
+        }
         if up <= 0.0 { press > 0.0 } else { up * up < limit * press }
+    }
+
+    /// Would the next bounce rise to no height that counts, as the present eddy and kick push?
+    #[inline(never)]
+    fn is_pressed_by_chance<const W: usize>(
+        &self,
+        crew: &Crew<W, D::Here>,
+        l: usize,
+        hit: &Hit,
+        after: &After,
+    ) -> bool {
+        let n = hit.meeting.normal;
+        let up = dot(sub(after.velocity, hit.wall_velocity), n);
+        let radius = crew.bodies.radius[l];
+        let height = self.settings.settle_height.of(radius).max(LOWEST * radius);
+        let along = sub(after.velocity, scale(n, up));
+        let here = (crew.here[l], crew.time[l]);
+        let a = self.rates_at(here, &crew.bodies.one(l), hit.meeting.position, along, after.spin).a;
+        let press = -(n[0] * a[0][0] + n[1] * a[1][0] + n[2] * a[2][0]);
+        press > 0.0 && up * up < 2.0 * height * press
+    }
+
+    /// The acceleration with which eddies of the usual strength lift a sphere off a wall, m/s².
+    fn eddies_lift(&self, (here, time): (D::Here, f64), body: &Bodies<1>, x: Vec3, normal: Vec3) -> f64 {
+        let Some(walk) = &self.dynamics.random_walk else { return 0.0 };
+        let gust =
+            walk.fluctuation(normal, &self.domain.fluid(here, time, x), self.dynamics.fluid.kinematic_viscosity());
+        dot(gust, normal).max(0.0) * body.drag_rate[0]
     }
 
     /// k T per mass, m²/s².

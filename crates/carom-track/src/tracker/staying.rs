@@ -96,6 +96,77 @@ impl<D: Domain> Walk<'_, D> {
         }
     }
 
+    /// Follows a lane along a wall that chance presses it to, for as long as that push lasts.
+    #[inline(never)]
+    pub(super) fn follow_pressed<const W: usize>(
+        &self,
+        crew: &mut Crew<W, D::Here>,
+        l: usize,
+        hit: &Hit,
+        after: &After,
+        sink: &mut dyn Sink,
+    ) {
+        let (began, until) = (crew.time[l], crew.stop[l]);
+        let mut body = crew.bodies.one(l);
+        if self.drifts() {
+            body.eddy = [Some(crew.lanes[l].chance.midway(until - began))];
+        }
+        let mut contact = self.contact(crew, l, hit, after).pressed_by_chance(&body, until);
+        let (number, traced) = (crew.lanes[l].particle.number, crew.lanes[l].trace);
+        for _ in 0..WEDGED {
+            let ending = contact.run(|time, m| {
+                if traced {
+                    sink.point(number, time, m.x, m.v, m.spin);
+                }
+            });
+            self.bring(crew, l, &contact);
+            match ending {
+                Ending::Stalls => {
+                    sink.stalled();
+                    return finish(crew, l, Fate::Airborne, None, sink);
+                }
+                // held in a corner: it stays there as long as it is pushed
+                Ending::Rests => {
+                    crew.time[l] = until;
+                    put(crew, l, contact.place(), hit.wall_velocity, [0.0; 3]);
+                    break;
+                }
+                Ending::TimeIsUp | Ending::Leaves(_) => break,
+                Ending::Meets(other) => {
+                    let (stays, ends) = self.blow(crew, l, &mut contact, &other, sink);
+                    if let Some(fate) = ends {
+                        return finish(crew, l, fate, Some(other.wall), sink);
+                    }
+                    if !stays {
+                        break;
+                    }
+                }
+            }
+        }
+        if crew.time[l] >= self.settings.until {
+            return finish(crew, l, Fate::Airborne, None, sink);
+        }
+        self.fly_on(crew, l, began);
+    }
+
+    /// An impact on another wall during contact motion: whether the motion along the first one goes on, and what ends with it.
+    fn blow<const W: usize>(
+        &self,
+        crew: &mut Crew<W, D::Here>,
+        l: usize,
+        contact: &mut Contact<'_, D>,
+        hit: &Hit,
+        sink: &mut dyn Sink,
+    ) -> (bool, Option<Fate>) {
+        let m = contact.motion;
+        crew.lanes[l].impacts += 1;
+        let after = self.outcome(crew, l, hit, m.v, m.spin);
+        let stays = contact.goes_on(Motion { v: after.velocity, spin: after.spin, ..m });
+        put(crew, l, m.x, after.velocity, after.spin);
+        sink.impact(&record(&crew.lanes[l], crew.time[l], hit, m.v, m.spin, &after));
+        (stays, after.event.ends())
+    }
+
     /// Brings a lane up to its contact motion.
     fn bring<const W: usize>(&self, crew: &mut Crew<W, D::Here>, l: usize, contact: &Contact<'_, D>) {
         (crew.time[l], crew.here[l], crew.steps[l]) = (contact.time, contact.here, contact.steps);

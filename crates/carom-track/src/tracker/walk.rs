@@ -36,6 +36,8 @@ impl<D> Clone for Walk<'_, D> {
 const LOOK: u64 = 64;
 /// Edges met in a row without any time between them after which a sphere is led off the edge.
 const MOST_EDGES: u32 = 8;
+/// Share of the step that the tolerance allows which is always worth trying.
+const LEAST_SHARE: f64 = 1.0 / 64.0;
 /// What is left of a step that leads off an edge.
 const SHORT: f64 = 1e-3;
 
@@ -219,7 +221,9 @@ impl<D: Domain> Walk<'_, D> {
     fn limit<const W: usize>(&self, crew: &mut Crew<W, D::Here>) {
         for l in 0..W {
             let (x, v, _) = motion_of(&crew.motion, l);
-            crew.longest[l] = self.domain.longest(crew.here[l], x, v).max(least_step(crew.time[l]));
+            // next to an edge that it hardly approaches a straight path says nothing: the step finds where it crosses
+            let least = least_step(crew.time[l]).max(LEAST_SHARE * crew.next[l]);
+            crew.longest[l] = self.domain.longest(crew.here[l], x, v).max(least);
         }
     }
 

@@ -271,6 +271,7 @@ impl Table {
     }
 
     /// Everything known at `x`, by the formulas of a piece.
+    #[inline(always)]
     pub fn sample_in(&self, piece: Piece, x: [f64; 3]) -> Local {
         let (p, w) = self.places(piece, x);
         let [u, v, w_, k, epsilon] = self.blend::<QUANTITIES>(&p, w);

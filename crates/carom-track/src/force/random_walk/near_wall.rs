@@ -23,6 +23,7 @@ const END: f64 = 200.0;
 
 impl NearWall {
     /// Root mean squares of the fluctuation along the flow, along the wall's normal and across, m/s.
+    #[inline(always)]
     pub(super) fn intensities(self, local: &Local, nu: f64) -> [f64; 3] {
         let sigma = (local.k * (2.0 / 3.0)).sqrt();
         let y_plus = wall_units(local, nu);
@@ -44,6 +45,7 @@ impl NearWall {
     }
 
     /// T_L near a wall for one of the free flow, s.
+    #[inline(always)]
     pub(super) fn time(self, free: f64, local: &Local, nu: f64) -> f64 {
         let y_plus = wall_units(local, nu);
         let share = share(y_plus);
@@ -60,17 +62,20 @@ impl NearWall {
 }
 
 /// y u_τ/ν; infinite where no wall or no friction velocity is known.
+#[inline(always)]
 fn wall_units(local: &Local, nu: f64) -> f64 {
     if local.friction_velocity > 0.0 { local.wall_distance * local.friction_velocity / nu } else { f64::INFINITY }
 }
 
 /// How much of the correction applies: 1, then falling smoothly to 0.
+#[inline(always)]
 fn share(y_plus: f64) -> f64 {
     let s = ((END - y_plus) / (END - FADE)).clamp(0.0, 1.0);
     s * s * (3.0 - 2.0 * s)
 }
 
 /// f_u, f_v, f_w.
+#[inline(always)]
 fn wang_james(y_plus: f64, share: f64) -> [f64; 3] {
     let s = y_plus + 6.0;
     let f_u = 1.0 + share * 0.285 * s * exp(-0.455 * pow(s, 0.53));
@@ -78,6 +83,7 @@ fn wang_james(y_plus: f64, share: f64) -> [f64; 3] {
     [f_u, f_v, (3.0 - f_u * f_u - f_v * f_v).max(0.0).sqrt()]
 }
 
+#[inline(always)]
 fn kallio_reeks_rms(y_plus: f64) -> f64 {
     0.005 * y_plus * y_plus / (1.0 + 0.002_923 * pow(y_plus.max(1e-9), 2.128))
 }
@@ -85,6 +91,7 @@ fn kallio_reeks_rms(y_plus: f64) -> f64 {
 /// T⁺ of Kallio & Reeks in the viscous sublayer.
 const SUBLAYER_TIME: f64 = 10.0;
 
+#[inline(always)]
 fn kallio_reeks_time(y_plus: f64) -> f64 {
     if y_plus <= 5.0 { SUBLAYER_TIME } else { 7.122 + 0.5731 * y_plus - 0.001_29 * y_plus * y_plus }
 }

@@ -32,6 +32,9 @@ impl Rub {
 /// Force across a wall, over the whole, that counts neither as leaning on it nor as pulling off it.
 const LEANS: f64 = 1e-9;
 
+/// Shifts after which walls meet too sharply for their gaps to be closed.
+const MOST_SHIFTS: usize = 32;
+
 /// One contact.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Held<'a> {
@@ -94,8 +97,26 @@ impl<'a> Surface<'a> {
         self.contacts.get(..self.count).unwrap_or_default()
     }
 
-    /// The shift that closes the gaps of its contacts, m.
-    pub fn closing(&self) -> Vec3 {
+    /// The shift that closes the gaps of its contacts without going into another one's wall, m; none where that takes more than `most`.
+    pub fn closing(&self, all: &[Held<'a>], most: f64) -> Vec3 {
+        let mut shift = self.gaps_closed();
+        let is_own = |c: &Held| self.list().iter().any(|own| own.index == c.index && own.normal == c.normal);
+        for _ in 0..MOST_SHIFTS {
+            let gap = |c: &Held| c.gap + dot(c.normal, shift);
+            let Some(deepest) =
+                all.iter().filter(|c| !is_own(c) && gap(c) < 0.0).min_by(|a, b| gap(a).total_cmp(&gap(b)))
+            else {
+                return if norm(shift) <= most { shift } else { [0.0; 3] };
+            };
+            let free = self.along(deepest.normal);
+            let share = dot(free, free);
+            // a little further than the wall: rounding must not bring it back
+            shift = add(shift, scale(free, -(1.0 + 1e-9) * gap(deepest) / share.max(1e-300)));
+        }
+        [0.0; 3]
+    }
+
+    fn gaps_closed(&self) -> Vec3 {
         match self.list() {
             [] => [0.0; 3],
             [c] => scale(c.normal, -c.gap),

@@ -156,7 +156,8 @@ fn kicks_and_eddies_hold_nothing_on_an_elastic_wall() {
         let settings = Settings { until: 3e-4, tolerance: 1e-3, ..settings() };
         let log = track(&domain, &d, &[bounce(1.0)], settings, &particles);
         assert!(log.impacts.len() > 200, "{}", log.impacts.len());
-        assert!(log.ends.iter().all(|e| e.fate == Fate::Airborne), "{gravity}");
+        let other: Vec<_> = log.ends.iter().filter(|e| e.fate != Fate::Airborne).collect();
+        assert!(other.is_empty(), "{gravity}: {other:?}");
     }
 }
 
