@@ -18,6 +18,9 @@ pub enum LabError {
         /// What is wrong, where.
         error: SpecError,
     },
+    /// A computed wind tunnel's walls, laws and injections do not match.
+    #[error(transparent)]
+    Tunnel(#[from] carom_track::tracker::TrackerError),
     /// A file of points is wrong: the message names file, line and value.
     #[error("{0}")]
     Points(String),

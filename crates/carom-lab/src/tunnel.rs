@@ -96,7 +96,7 @@ fn track(
         error,
     })?;
     let mut follow = Follow::default();
-    case.tracker().run(&mut (0..case.count()).filter_map(|n| case.particle(n)), &mut follow);
+    case.tracker().run(&mut (0..case.count()).filter_map(|n| case.particle(n)), &mut follow)?;
     follow.ends.sort_by_key(|e| e.particle.number);
     let way = |end: &End| {
         let number = end.particle.number;

@@ -67,7 +67,7 @@ fn closed_box(c: &mut Criterion) {
     let tracker = Tracker { domain: &domain, dynamics: &dynamics, behaviors: &behaviors, settings };
     let particles: Vec<Particle> = (0..PARTICLES).map(particle).collect();
     let mut count = Count::default();
-    tracker.run(&mut particles.iter().copied(), &mut count);
+    tracker.run(&mut particles.iter().copied(), &mut count).expect("one wall, one behavior");
     let each = |n: u64| n as f64 / count.ends as f64;
     println!("{:.2} hits and {:.2} steps per particle", each(count.impacts), each(count.steps));
     let mut group = c.benchmark_group("closed box, 50 ms");
@@ -75,7 +75,7 @@ fn closed_box(c: &mut Criterion) {
     group.bench_function("widest instructions", |b| {
         b.iter(|| {
             let mut count = Count::default();
-            tracker.run(&mut particles.iter().copied(), &mut count);
+            tracker.run(&mut particles.iter().copied(), &mut count).expect("one wall, one behavior");
             count.impacts
         })
     });
@@ -83,7 +83,7 @@ fn closed_box(c: &mut Criterion) {
     group.bench_function("plain", |b| {
         b.iter(|| {
             let mut count = Count::default();
-            tracker.run_plain(&mut particles.iter().copied(), &mut count);
+            tracker.run_plain(&mut particles.iter().copied(), &mut count).expect("one wall, one behavior");
             count.impacts
         })
     });

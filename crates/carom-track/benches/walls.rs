@@ -186,7 +186,7 @@ fn fly(wanted: f64) {
             let p = particle(n);
             Particle { position: p.position.map(|c| 0.5 * (c - 0.5 * SIDE)), ..p }
         });
-        tracker.run(&mut { spheres }, &mut watch);
+        tracker.run(&mut { spheres }, &mut watch).expect("a behavior for each wall");
         number += 1000;
         all.steps += watch.steps;
         all.impacts += watch.impacts;
@@ -242,7 +242,7 @@ fn main() {
             let tracker = Tracker { domain, dynamics: &dynamics, behaviors: &behaviors, settings };
             let mut count = Count::default();
             let before = processor(begin);
-            tracker.run(&mut particles.iter().copied(), &mut count);
+            tracker.run(&mut particles.iter().copied(), &mut count).expect("a behavior for each wall");
             *least = least.min(processor(begin) - before);
             if round == 0 {
                 let Count { impacts, steps, outside } = count;

@@ -101,7 +101,7 @@ impl<'a> Recording<'a> {
             own: vec![Own::default(); (numbers.end - numbers.start) as usize],
             failed: None,
         };
-        self.case.tracker().run(&mut numbers.filter_map(|n| self.case.particle(n)), &mut collector);
+        self.case.tracker().run(&mut numbers.filter_map(|n| self.case.particle(n)), &mut collector)?;
         collector.finish().map_err(|e| RunError::io(&self.aside)(e))
     }
 }

@@ -73,6 +73,13 @@ impl<const W: usize> Bodies<W> {
     }
 }
 
+/// Drag, gravity and buoyancy in air at 24 °C and one atmosphere; nothing random.
+impl Default for Dynamics {
+    fn default() -> Self {
+        Self { fluid: Fluid::default(), forces: Forces::default(), random_walk: None, brownian: false }
+    }
+}
+
 impl Dynamics {
     /// Only drag, gravity and buoyancy.
     #[inline(always)]

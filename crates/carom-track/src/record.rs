@@ -192,18 +192,20 @@ pub struct End {
 /// Who listens to a run. Events of one particle come in order.
 pub trait Sink {
     /// A particle begins; `true` if the points of its path are wanted.
-    fn start(&mut self, particle: &Particle) -> bool;
+    fn start(&mut self, _particle: &Particle) -> bool {
+        false
+    }
     /// An impact.
-    fn impact(&mut self, impact: &ImpactRecord);
+    fn impact(&mut self, _impact: &ImpactRecord) {}
     /// The end of a contact motion that lasted: no impact, but a row like one. Its incoming speeds are those at the beginning. Taken as
     /// an impact unless the listener tells them apart.
     fn contact_ended(&mut self, row: &ImpactRecord) {
         self.impact(row);
     }
     /// A point of a wanted path.
-    fn point(&mut self, particle: u64, time: f64, position: Vec3, velocity: Vec3, spin: Vec3);
+    fn point(&mut self, _particle: u64, _time: f64, _position: Vec3, _velocity: Vec3, _spin: Vec3) {}
     /// A particle ended.
-    fn end(&mut self, end: &End);
+    fn end(&mut self, _end: &End) {}
     /// A particle was left where it was because its steps ran out.
     fn stalled(&mut self) {}
 }

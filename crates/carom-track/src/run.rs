@@ -126,6 +126,9 @@ pub enum RunError {
     /// A stream could not be read or written.
     #[error(transparent)]
     Stream(#[from] std::io::Error),
+    /// The case's walls, behaviors and injections do not match.
+    #[error(transparent)]
+    Tracker(#[from] crate::tracker::TrackerError),
     /// Another run is at work in the folder.
     #[error("{}: another run is at work in it: wait for its end, or name another folder", folder.display())]
     Busy {

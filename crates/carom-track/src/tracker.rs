@@ -50,6 +50,13 @@ pub struct Particle {
 }
 
 impl Particle {
+    /// A single particle of the first injection, at time zero and without spin: diameter in m, density in kg/m³, position of the centre in
+    /// m, velocity in m/s.
+    pub fn sphere(number: u64, diameter: f64, density: f64, position: Vec3, velocity: Vec3) -> Self {
+        let (injection, weight, time, spin) = (0, 1.0, 0.0, [0.0; 3]);
+        Self { number, injection, diameter, density, weight, time, position, velocity, spin }
+    }
+
     /// A particle of a run from its injection's.
     pub fn new(number: u64, injection: usize, start: &crate::injection::Particle) -> Self {
         Self {
@@ -113,25 +120,105 @@ pub struct Tracker<'a> {
 impl Tracker<'_> {
     /// Tracks particles to their ends, with the widest instructions the machine has. The sink hears of each particle's
     /// events in order; events of different particles interleave.
-    pub fn run(&self, particles: &mut dyn Iterator<Item = Particle>, sink: &mut dyn Sink) {
-        self.run_on(InstructionSet::best(), particles, sink);
+    ///
+    /// # Errors
+    /// Walls and behaviors that do not match: nothing is tracked. A particle of an injection for which a wall has no law: those before it
+    /// are tracked to their ends, it and those after it are not.
+    pub fn run(&self, particles: &mut dyn Iterator<Item = Particle>, sink: &mut dyn Sink) -> Result<(), TrackerError> {
+        self.run_on(InstructionSet::best(), particles, sink)
     }
 
     /// As [`Tracker::run`], with the same bits, on a given set of instructions.
-    pub fn run_on(&self, set: InstructionSet, particles: &mut dyn Iterator<Item = Particle>, sink: &mut dyn Sink) {
+    ///
+    /// # Errors
+    /// As [`Tracker::run`].
+    pub fn run_on(
+        &self,
+        set: InstructionSet,
+        particles: &mut dyn Iterator<Item = Particle>,
+        sink: &mut dyn Sink,
+    ) -> Result<(), TrackerError> {
+        let injections = self.injections()?;
+        let mut refused = None;
+        let mut known = particles.map_while(|p| {
+            if p.injection >= injections {
+                refused =
+                    Some(TrackerError::Injection { particle: p.number, injection: p.injection, laws: injections });
+                return None;
+            }
+            Some(p)
+        });
         match self.domain {
-            AnyDomain::Analytic(domain) => set.run(Flight { walk: self.walk(domain), particles, sink }),
+            AnyDomain::Analytic(domain) => set.run(Flight { walk: self.walk(domain), particles: &mut known, sink }),
         }
+        refused.map_or(Ok(()), Err)
     }
 
     /// The same bits with one lane and no special instructions.
-    pub fn run_plain(&self, particles: &mut dyn Iterator<Item = Particle>, sink: &mut dyn Sink) {
-        self.run_on(InstructionSet::Portable, particles, sink);
+    ///
+    /// # Errors
+    /// As [`Tracker::run`].
+    pub fn run_plain(
+        &self,
+        particles: &mut dyn Iterator<Item = Particle>,
+        sink: &mut dyn Sink,
+    ) -> Result<(), TrackerError> {
+        self.run_on(InstructionSet::Portable, particles, sink)
+    }
+
+    /// Injections for which every wall has a law.
+    fn injections(&self) -> Result<usize, TrackerError> {
+        let walls = self.domain.walls();
+        if walls.len() != self.behaviors.len() {
+            return Err(TrackerError::Behaviors { walls: walls.len(), behaviors: self.behaviors.len() });
+        }
+        let mut injections = usize::MAX;
+        for (wall, behavior) in walls.iter().zip(self.behaviors) {
+            match behavior.laws().map(<[_]>::len) {
+                Some(0) => return Err(TrackerError::NoLaw { wall: wall.name.clone() }),
+                // one law is for all
+                Some(1) | None => {}
+                Some(laws) => injections = injections.min(laws),
+            }
+        }
+        Ok(injections)
     }
 
     fn walk<'b, D>(&'b self, domain: &'b D) -> Walk<'b, D> {
         Walk { domain, dynamics: self.dynamics, behaviors: self.behaviors, settings: self.settings }
     }
+}
+
+/// What a [`Tracker`] cannot start with.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum TrackerError {
+    /// Not one behavior for each wall.
+    #[error("{walls} walls and {behaviors} behaviors: each wall needs one, in the order of the walls")]
+    Behaviors {
+        /// Walls of the domain.
+        walls: usize,
+        /// Behaviors given.
+        behaviors: usize,
+    },
+    /// A list of laws with nothing in it.
+    #[error("wall `{wall}` has an empty list of laws: one for all injections, or one for each")]
+    NoLaw {
+        /// Name of the wall.
+        wall: String,
+    },
+    /// A particle of an injection for which a wall has no law.
+    #[error(
+        "particle {particle} is of injection {injection}, counted from 0, but a wall has laws for {laws} injections only"
+    )]
+    Injection {
+        /// Number of the particle.
+        particle: u64,
+        /// Index of its injection.
+        injection: usize,
+        /// How many injections the wall with the fewest laws has one for.
+        laws: usize,
+    },
 }
 
 /// A call of [`Tracker::run`], for each set of instructions. The lanes fill two vectors: one fills the waits of the other's chain of

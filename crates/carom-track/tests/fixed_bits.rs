@@ -113,7 +113,7 @@ fn flights_have_fixed_bits_on_every_instruction_set() {
             let case = Case::from_toml(text, Path::new(name), Library::builtin())
                 .unwrap_or_else(|e| panic!("{}", e.located(name, text)));
             let mut told = Told(vec![Vec::new(); case.count() as usize]);
-            case.tracker().run_on(set, &mut (0..case.count()).filter_map(|n| case.particle(n)), &mut told);
+            case.tracker().run_on(set, &mut (0..case.count()).filter_map(|n| case.particle(n)), &mut told).unwrap();
             let values = told.0.concat();
             println!("{name} on {set:?}: {} numbers", values.len());
             fingerprint(values)

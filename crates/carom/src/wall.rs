@@ -1,7 +1,6 @@
 //! A wall law: materials and text above, a kernel of plain numbers below. An impact in, an outcome out.
 
 use crate::impact::{Impact, ImpactError, Outcome};
-use crate::instructions::{Work, run_scalar};
 use crate::kernel::{Judged, Kernel, Limits, Tables};
 use crate::math::{BEST, Fma};
 use crate::normal::empirical::{Curve, Piece};
@@ -183,13 +182,7 @@ impl WallLaw {
     /// ```
     #[inline]
     pub fn impact(&self, impact: &Impact) -> Result<Outcome, ImpactError> {
-        if let Some(answer) = self.kernel.short_impact(impact) {
-            return answer;
-        }
-        match &self.kernel.scatter {
-            None => run_scalar(OneImpact::<false> { law: self, impact }),
-            Some(_) => run_scalar(OneImpact::<true> { law: self, impact }),
-        }
+        self.kernel.scalar_impact(&self.tables(), impact)
     }
 
     /// As [`WallLaw::impact`], compiled into the caller for the caller's own instruction set: the same bits, and the answer need not pass
@@ -202,24 +195,5 @@ impl WallLaw {
     #[inline(always)]
     pub fn impact_on<F: Fma>(&self, f: F, impact: &Impact) -> Result<Outcome, ImpactError> {
         self.kernel.impact(f, &self.tables(), impact)
-    }
-}
-
-/// One impact, on a wall that scatters or not: the many facets of one would crowd the short path of the other.
-struct OneImpact<'a, const SCATTERS: bool> {
-    law: &'a WallLaw,
-    impact: &'a Impact,
-}
-
-impl<const SCATTERS: bool> Work for OneImpact<'_, SCATTERS> {
-    type Output = Result<Outcome, ImpactError>;
-
-    #[inline(always)]
-    fn run<F: Fma, const LANES: usize>(self, f: F) -> Self::Output {
-        let tables = self.law.tables();
-        match &self.law.kernel.scatter {
-            Some(scatter) if SCATTERS => self.law.kernel.rough_impact(f, &tables, scatter, self.impact),
-            _ => self.law.kernel.smooth_impact(f, &tables, self.impact),
-        }
     }
 }

@@ -92,7 +92,9 @@ pub enum Paths {
 /// Tracks every sphere of a case, in the order of their numbers.
 pub fn track(case: &Case, paths: Paths) -> Vec<Track> {
     let mut all = Collector { paths, open: (0..case.count()).map(|_| Open::default()).collect() };
-    case.tracker().run(&mut (0..case.count()).filter_map(|n| case.particle(n)), &mut all);
+    case.tracker()
+        .run(&mut (0..case.count()).filter_map(|n| case.particle(n)), &mut all)
+        .expect("a case's tracker is whole");
     all.open.into_iter().filter_map(|o| Some(Track { impacts: o.impacts, path: o.path, end: o.end? })).collect()
 }
 

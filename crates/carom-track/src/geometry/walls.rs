@@ -46,6 +46,11 @@ pub struct Wall {
 }
 
 impl Wall {
+    /// A wall at rest that a sphere's surface touches.
+    pub fn new(name: &str, shape: Shape) -> Self {
+        Self { name: name.to_owned(), shape, contact_at: ContactAt::Surface, velocity: [0.0; 3] }
+    }
+
     /// Distance at which a sphere of that radius is in contact, m.
     #[inline(always)]
     pub fn clearance(&self, radius: f64) -> f64 {

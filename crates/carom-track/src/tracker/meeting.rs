@@ -137,7 +137,10 @@ impl<D: Domain> Walk<'_, D> {
             validity: Validity::NONE,
             bounces: false,
         };
-        let Some(behavior) = self.behaviors.get(hit.wall) else { return stay(Event::Trap) };
+        let Some(behavior) = self.behaviors.get(hit.wall) else {
+            debug_assert!(false, "Tracker::run asked for a behavior of each wall");
+            return stay(Event::Trap);
+        };
         let law = match behavior {
             Behavior::Trap => return stay(Event::Trap),
             Behavior::Escape => return After { velocity: v, spin, restitution: f64::NAN, ..stay(Event::Escape) },
@@ -152,7 +155,10 @@ impl<D: Domain> Walk<'_, D> {
             }
             Behavior::Law(_) | Behavior::Removal(..) => law_of(behavior, lane.particle.injection),
         };
-        let Some(law) = law else { return stay(Event::Trap) };
+        let Some(law) = law else {
+            debug_assert!(false, "Tracker::run asked for a law of each injection");
+            return stay(Event::Trap);
+        };
         let Particle { diameter, density, .. } = lane.particle;
         let draws = || {
             let event = u32::try_from(lane.impacts).unwrap_or(u32::MAX);
@@ -309,8 +315,10 @@ impl After {
 /// The law of a wall for the spheres of an injection.
 #[inline(always)]
 pub(super) fn law_of(behavior: &Behavior, injection: usize) -> Option<&WallLaw> {
-    let laws = behavior.laws()?;
-    laws.get(injection).or(laws.first())
+    match behavior.laws()? {
+        [one] => Some(one),
+        each => each.get(injection),
+    }
 }
 
 /// Whether adhesion holds a sphere that touches a wall at rest: if the law captures at the slowest approach.

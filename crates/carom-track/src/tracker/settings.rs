@@ -36,6 +36,19 @@ pub struct Settings {
     pub seed: u64,
 }
 
+/// Tolerance 1e-5, no end but at walls, 10⁸ steps at most, seed 1.
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            tolerance: 1e-5,
+            until: f64::INFINITY,
+            settle_height: SettleHeight::DEFAULT,
+            max_steps: 100_000_000,
+            seed: 1,
+        }
+    }
+}
+
 /// Local error of a step over the tolerance of a first impact. Errors of steps add up, and a shallow approach turns an
 /// error across the wall into a larger one of the time: docs/benchmarks.md says by how much.
 const PER_STEP: f64 = 1.0 / 40.0;

@@ -89,7 +89,7 @@ fn track(
     particles: &[Particle],
 ) -> Log {
     let mut log = Log::default();
-    Tracker { domain, dynamics, behaviors, settings }.run(&mut particles.iter().copied(), &mut log);
+    Tracker { domain, dynamics, behaviors, settings }.run(&mut particles.iter().copied(), &mut log).unwrap();
     assert_eq!(log.ends.len(), particles.len());
     assert_eq!(log.stalled, 0);
     log
@@ -210,7 +210,7 @@ fn any_company_gives_the_same_bits() {
     for p in &particles {
         let mut log = Log::default();
         let tracker = Tracker { domain: &domain, dynamics: &dynamics, behaviors: &behaviors, settings };
-        tracker.run_plain(&mut std::iter::once(*p), &mut log);
+        tracker.run_plain(&mut std::iter::once(*p), &mut log).unwrap();
         let same: Vec<_> = together.impacts.iter().filter(|i| i.particle == p.number).copied().collect();
         assert_eq!(log.impacts, same);
         assert_eq!(together.ends.iter().find(|e| e.particle.number == p.number), log.ends.first());
@@ -262,7 +262,7 @@ fn spheres_without_inertia_follow_the_eddies_of_a_channel_and_one_lane_gives_the
     for p in particles.iter().take(8) {
         let mut alone = Log::default();
         let tracker = Tracker { domain: &domain, dynamics: &d, behaviors: &behaviors, settings };
-        tracker.run_plain(&mut std::iter::once(*p), &mut alone);
+        tracker.run_plain(&mut std::iter::once(*p), &mut alone).unwrap();
         assert_eq!(log.ends.iter().find(|e| e.particle.number == p.number), alone.ends.first());
     }
 }

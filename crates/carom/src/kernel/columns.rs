@@ -6,7 +6,7 @@
 mod row;
 
 use super::impact::NO_SLIP;
-use super::short::{OnShort, Short};
+use super::short::{Short, ShortLaw};
 use super::{Kernel, Tables};
 use crate::batch::{Incidence, Rebound};
 use crate::instructions::{InstructionSet, Work};
@@ -113,9 +113,10 @@ impl<F: Fma> Chunks for With<F> {
     #[inline(always)]
     fn one(self, kernel: &Kernel, tables: &Tables, rows: &Rows, out: &mut Out, between: &mut Between) -> bool {
         if self.one_loop && kernel.surface_curvature == 0.0 && out.more.is_none() {
-            let f = self.f;
-            if let Ok(fine) = kernel.if_short(OneLoop { f, rows, out: &mut *out }) {
-                return fine;
+            match kernel.short() {
+                Some(ShortLaw::Elastic(law)) => return one_loop(self.f, &law, rows, out),
+                Some(ShortLaw::ElasticPlastic(law)) => return one_loop(self.f, &law, rows, out),
+                Some(ShortLaw::Given(_)) | None => {}
             }
         }
         chunk(self.f, kernel, tables, rows, out, between)
@@ -248,27 +249,17 @@ fn chunk<F: Fma>(f: F, kernel: &Kernel, tables: &Tables, rows: &Rows, out: &mut 
 }
 
 /// A short law on a flat wall in one loop.
-struct OneLoop<'a, 'b, F> {
-    f: F,
-    rows: &'a Rows<'a>,
-    out: &'a mut Out<'b>,
-}
-
-impl<F: Fma> OnShort for OneLoop<'_, '_, F> {
-    type Output = bool;
-
-    #[inline(always)]
-    fn run<B: Mechanism>(self, law: &Short<B>) -> bool {
-        let (bulk, work, friction) = (law.bulk, *law.work, law.friction);
-        let law = Short { bulk, work: &work, friction };
-        let mut fine = true;
-        for i in 0..CHUNK {
-            let row = Row::at(self.rows, i);
-            let e = law.balance(self.f, row.v_n, &Size::flat(0.5 * row.diameter)).restitution();
-            fine &= row.rub::<_, _, false>(self.f, &law.friction, e, 1.0, self.out, i);
-        }
-        fine
+#[inline(always)]
+fn one_loop<F: Fma, B: Mechanism>(f: F, law: &Short<B>, rows: &Rows, out: &mut Out) -> bool {
+    let (bulk, work, friction) = (law.bulk, *law.work, law.friction);
+    let law = Short { bulk, work: &work, friction };
+    let mut fine = true;
+    for i in 0..CHUNK {
+        let row = Row::at(rows, i);
+        let e = law.balance(f, row.v_n, &Size::flat(0.5 * row.diameter)).restitution();
+        fine &= row.rub::<_, _, false>(f, &law.friction, e, 1.0, out, i);
     }
+    fine
 }
 
 /// e of every row into `between.left`.

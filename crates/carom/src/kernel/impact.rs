@@ -125,7 +125,7 @@ impl Laws for AnyLaw<'_> {
 /// The motion of a sphere that meets a wall, in space and relative to the wall.
 pub(super) struct Motion {
     tangent: Vec3,
-    tangent2: f64,
+    pub(super) tangent2: f64,
     normal: Vec3,
     v_n: f64,
     spin: Vec3,
@@ -185,7 +185,7 @@ impl Motion {
 
     /// The rebound along the wall given outright: e_t times the tangential speed v_t.
     #[inline(always)]
-    fn restore(&self, e_t: f64, v_t: f64, response: &NormalResponse) -> Slid {
+    pub(super) fn restore(&self, e_t: f64, v_t: f64, response: &NormalResponse) -> Slid {
         let out = e_t * v_t;
         Slid {
             tangent: [e_t * self.tangent[0], e_t * self.tangent[1], e_t * self.tangent[2]],

@@ -1,12 +1,15 @@
-//! The short paths: the paper's two laws, EA and EAP, with friction on a smooth wall. They do what every other law does, operation by
+//! The short paths: the paper's two laws, EA and EAP, with friction on a smooth wall, and two given restitutions. They do what every other law does, operation by
 //! operation (the same bits: `tests/fixed_bits.rs`), in code small enough to stay in registers.
 
-use super::Kernel;
 use super::impact::{Laws, Motion, Slid};
+use super::{Kernel, Tables};
 use crate::impact::{Impact, ImpactError, Outcome};
 use crate::instructions::{Work, run_scalar};
-use crate::math::Fma;
+use crate::math::{self, Fma};
 use crate::normal::adhesion;
+use crate::normal::damping::HertzDamping;
+use crate::normal::empirical::Lookup;
+use crate::normal::plastic::Kadomtsev;
 use crate::normal::{Account, Mechanism, NormalLaw, NormalResponse, ShortList, Size};
 use crate::tangential::{Coulomb, Tangential};
 use crate::validity::Validity;
@@ -48,61 +51,100 @@ impl<B: Mechanism> Laws for Short<'_, B> {
     }
 }
 
-/// What is done with a short law whose type is known.
-pub(super) trait OnShort {
-    type Output;
-    fn run<B: Mechanism>(self, law: &Short<B>) -> Self::Output;
+/// A law that has code of its own.
+pub(super) enum ShortLaw<'a> {
+    Elastic(Short<'a, HertzDamping>),
+    ElasticPlastic(Short<'a, Kadomtsev>),
+    Given(Given),
 }
 
 impl Kernel {
-    /// Does `then` with the law if it is a short one, else gives it back.
+    /// The law, if it is a short one.
     #[inline(always)]
-    pub(super) fn if_short<T: OnShort>(&self, then: T) -> Result<T::Output, T> {
-        let (None, Tangential::Friction { friction, beta }, NormalLaw::Ledger(ledger)) =
-            (&self.scatter, &self.tangential, &self.normal)
-        else {
-            return Err(then);
-        };
-        let friction = Coulomb { friction: *friction, beta: *beta };
-        match ledger.short() {
-            Some(ShortList::Elastic(bulk, work)) => Ok(then.run(&Short { bulk, work, friction })),
-            Some(ShortList::ElasticPlastic(bulk, work)) => Ok(then.run(&Short { bulk: *bulk, work, friction })),
-            None => Err(then),
+    pub(super) fn short(&self) -> Option<ShortLaw<'_>> {
+        match (&self.scatter, &self.tangential, &self.normal) {
+            (None, Tangential::Friction { friction, beta }, NormalLaw::Ledger(ledger)) => {
+                let friction = Coulomb { friction: *friction, beta: *beta };
+                match ledger.short()? {
+                    ShortList::Elastic(bulk, work) => Some(ShortLaw::Elastic(Short { bulk, work, friction })),
+                    ShortList::ElasticPlastic(bulk, work) => {
+                        Some(ShortLaw::ElasticPlastic(Short { bulk: *bulk, work, friction }))
+                    }
+                }
+            }
+            (None, Tangential::Restitution(Lookup::Constant(along)), NormalLaw::Table(Lookup::Constant(across))) => {
+                Some(ShortLaw::Given(Given { across: *across, along: *along }))
+            }
+            _ => None,
         }
     }
 
-    /// One impact, if the law is a short one.
-    #[inline(always)]
-    pub(crate) fn short_impact(&self, impact: &Impact) -> Option<Result<Outcome, ImpactError>> {
-        self.if_short(Scalar { kernel: self, impact }).ok()
+    /// One impact, by the short path if there is one: the answer is built where the caller wants it, in each arm.
+    #[inline]
+    pub(crate) fn scalar_impact(&self, tables: &Tables, impact: &Impact) -> Result<Outcome, ImpactError> {
+        match self.short() {
+            Some(ShortLaw::Elastic(law)) => run_scalar(OneImpact { kernel: self, law: &law, impact }),
+            Some(ShortLaw::ElasticPlastic(law)) => run_scalar(OneImpact { kernel: self, law: &law, impact }),
+            Some(ShortLaw::Given(law)) => run_scalar(OneImpact { kernel: self, law: &law, impact }),
+            None if self.scatter.is_none() => run_scalar(AnyImpact::<false> { kernel: self, tables, impact }),
+            None => run_scalar(AnyImpact::<true> { kernel: self, tables, impact }),
+        }
     }
 }
 
-struct Scalar<'a> {
-    kernel: &'a Kernel,
-    impact: &'a Impact,
+/// Two restitutions given outright, the same at every angle.
+pub(super) struct Given {
+    across: f64,
+    along: f64,
 }
 
-impl OnShort for Scalar<'_> {
-    type Output = Result<Outcome, ImpactError>;
+impl Laws for Given {
+    #[inline(always)]
+    fn respond<F: Fma>(&self, _: F, _: f64, _: f64, _: &Size) -> NormalResponse {
+        NormalResponse::of_restitution(self.across)
+    }
 
     #[inline(always)]
-    fn run<B: Mechanism>(self, law: &Short<B>) -> Self::Output {
-        run_scalar(OneImpact { kernel: self.kernel, law, impact: self.impact })
+    fn judge<F: Fma>(&self, _: F, kernel: &Kernel, _: f64, _: &Size, _: &NormalResponse) -> Validity {
+        kernel.validity
+    }
+
+    #[inline(always)]
+    fn slide<F: Fma>(&self, _: F, motion: &Motion, response: &NormalResponse) -> Result<Slid, ImpactError> {
+        Ok(motion.restore(self.along, math::sqrt(motion.tangent2), response))
     }
 }
 
-struct OneImpact<'a, 'b, B> {
+struct OneImpact<'a, L> {
     kernel: &'a Kernel,
-    law: &'a Short<'b, B>,
+    law: &'a L,
     impact: &'a Impact,
 }
 
-impl<B: Mechanism> Work for OneImpact<'_, '_, B> {
+impl<L: Laws> Work for OneImpact<'_, L> {
     type Output = Result<Outcome, ImpactError>;
 
     #[inline(always)]
     fn run<F: Fma, const LANES: usize>(self, f: F) -> Self::Output {
         self.kernel.impact_by(f, self.law, self.impact)
+    }
+}
+
+/// One impact by any law, on a wall that scatters or not: the many facets of one would crowd the path of the other.
+struct AnyImpact<'a, const SCATTERS: bool> {
+    kernel: &'a Kernel,
+    tables: &'a Tables<'a>,
+    impact: &'a Impact,
+}
+
+impl<const SCATTERS: bool> Work for AnyImpact<'_, SCATTERS> {
+    type Output = Result<Outcome, ImpactError>;
+
+    #[inline(always)]
+    fn run<F: Fma, const LANES: usize>(self, f: F) -> Self::Output {
+        match &self.kernel.scatter {
+            Some(scatter) if SCATTERS => self.kernel.rough_impact(f, self.tables, scatter, self.impact),
+            _ => self.kernel.smooth_impact(f, self.tables, self.impact),
+        }
     }
 }

@@ -47,7 +47,7 @@ fn with_file(text: &str, stl: &[u8]) -> Result<Case, CaseError> {
 
 fn run(case: &Case) -> Log {
     let mut log = Log::default();
-    case.tracker().run(&mut (0..case.count()).filter_map(|n| case.particle(n)), &mut log);
+    case.tracker().run(&mut (0..case.count()).filter_map(|n| case.particle(n)), &mut log).unwrap();
     log.ends.sort_by_key(|e| e.particle.number);
     log
 }

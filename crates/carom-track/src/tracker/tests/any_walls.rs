@@ -70,7 +70,7 @@ proptest! {
         let settings = Settings { until: 0.5, ..settings() };
         let tracker = Tracker { domain: &domain, dynamics: &d, behaviors: &behaviors, settings };
         let p = Particle { diameter, density: 2500.0, ..sphere(0, [0.0; 3], v) };
-        tracker.run(&mut std::iter::once(p), &mut paths);
+        tracker.run(&mut std::iter::once(p), &mut paths).unwrap();
         let r = 0.5 * diameter;
         prop_assert_eq!(paths.log.ends.len(), 1);
         prop_assert_eq!(paths.log.stalled, 0);

@@ -15,7 +15,7 @@ fn between_plates(angle: f64, seed: u64) -> Log {
     for p in particles.iter().take(4) {
         let mut alone = Log::default();
         let tracker = Tracker { domain: &domain, dynamics: &d, behaviors: &behaviors, settings };
-        tracker.run_plain(&mut std::iter::once(*p), &mut alone);
+        tracker.run_plain(&mut std::iter::once(*p), &mut alone).unwrap();
         assert_eq!(log.ends.iter().find(|e| e.particle.number == p.number), alone.ends.first(), "in company and alone");
     }
     log

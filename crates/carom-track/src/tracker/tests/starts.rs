@@ -76,3 +76,24 @@ fn a_sphere_that_starts_where_a_wall_is_is_not_followed() {
     let fate = |n: u64| log.ends.iter().find(|e| e.particle.number == n).unwrap().fate;
     assert_eq!([fate(0), fate(1), fate(2)], [Fate::Overlapping, Fate::Overlapping, Fate::Airborne]);
 }
+
+#[test]
+fn walls_without_a_behavior_and_injections_without_a_law_are_refused() {
+    let domain = AnyDomain::new(Flow::Still, vec![plane("floor", [0.0; 3], [0.0, 1.0, 0.0])]);
+    let (d, settings) = (dynamics(Drag::None), settings());
+    let run = |behaviors: &[Behavior], injections: &[usize]| {
+        let mut log = Log::default();
+        let tracker = Tracker { domain: &domain, dynamics: &d, behaviors, settings };
+        let mut particles =
+            (0..).zip(injections).map(|(n, i)| Particle { injection: *i, ..sphere(n, [0.0, 1e-3, 0.0], [0.0; 3]) });
+        (tracker.run(&mut particles, &mut log), log.ends.len())
+    };
+    assert_eq!(run(&[], &[0]), (Err(TrackerError::Behaviors { walls: 1, behaviors: 0 }), 0));
+    assert_eq!(run(&[Behavior::Law(vec![])], &[0]), (Err(TrackerError::NoLaw { wall: "floor".into() }), 0));
+    let Behavior::Law(laws) = bounce(0.5) else { unreachable!() };
+    // one law is for all injections, two are for two
+    assert_eq!(run(&[Behavior::Law(laws.clone())], &[0, 7, 3]), (Ok(()), 3));
+    let two = Behavior::Law([laws.clone(), laws].concat());
+    let unknown = TrackerError::Injection { particle: 2, injection: 2, laws: 2 };
+    assert_eq!(run(&[two], &[0, 1, 2, 0]), (Err(unknown), 2));
+}

@@ -63,7 +63,7 @@ impl Case {
     /// Times of the first impacts, on walls that trap.
     fn firsts(&self, tolerance: f64, particles: &[Particle]) -> Vec<f64> {
         let domain = AnyDomain::new(self.flow.clone(), self.walls.clone());
-        let behaviors = [Behavior::Trap, Behavior::Trap];
+        let behaviors = vec![Behavior::Trap; domain.walls().len()];
         let log = track(&domain, &self.dynamics(), &behaviors, Settings { tolerance, ..settings() }, particles);
         let first = |p: &Particle| log.impacts.iter().find(|i| i.particle == p.number).map(|i| i.time);
         particles
