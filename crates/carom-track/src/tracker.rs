@@ -148,6 +148,8 @@ impl Tracker<'_> {
             }
             Some(p)
         });
+        // lanes ask again after the end
+        let mut known = known.by_ref().fuse();
         match self.domain {
             AnyDomain::Analytic(domain) => set.run(Flight { walk: self.walk(domain), particles: &mut known, sink }),
         }
