@@ -164,6 +164,7 @@ pub fn refused(error: ImpactError, motion: &Motion) -> Failure {
         ImpactError::NotFinite => format!("--speed {speed}, --spin {spin}"),
         ImpactError::Density => "the sphere's density".to_owned(),
         ImpactError::FrictionNotGiven => "an oblique impact needs --friction".to_owned(),
+        _ => "this impact".to_owned(),
     };
     Failure::input(format!("{what}: {error}"))
 }

@@ -94,6 +94,7 @@ impl Energy {
 /// How the sphere leaves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub struct Outcome {
     /// Sticks or bounces.
     pub fate: Fate,
@@ -118,6 +119,7 @@ pub struct Outcome {
 
 /// An impact that is none. The sphere is as it was.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum ImpactError {
     /// The sphere does not move towards the wall.
     NotApproaching,
