@@ -38,6 +38,7 @@ mod reader;
 #[cfg(feature = "parquet")]
 mod row_groups;
 mod rows;
+pub mod sheet;
 mod text;
 mod values;
 #[cfg(not(feature = "parquet"))]
@@ -50,7 +51,8 @@ pub use reader::TableReader;
 #[cfg(feature = "parquet")]
 pub use row_groups::{RowGroups, to_parquet};
 pub use rows::{Row, RowReader};
-pub use text::column_cells;
+pub use sheet::{Heading, Sheet, SheetError, SheetProblem};
+pub use text::{clipped, column_cells, quoted};
 pub use values::{Cell, Kind, Values};
 #[cfg(not(feature = "parquet"))]
 pub use without_parquet::{RowGroups, to_parquet};

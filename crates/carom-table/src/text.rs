@@ -2,6 +2,7 @@
 
 use crate::number;
 use crate::{Column, Table, Values};
+use std::borrow::Cow;
 
 /// What stands for a missing value.
 const MISSING: &str = "-";
@@ -45,4 +46,20 @@ pub fn column_cells(column: &Column) -> Vec<String> {
         Values::Text(v) => cells.extend(v.iter().map(|s| s.as_deref().map_or_else(missing, str::to_owned))),
     }
     cells
+}
+
+/// Characters of a text that a message repeats.
+const MOST: usize = 60;
+
+/// A text that is cut where it is too long for a message.
+pub fn clipped(text: &str) -> Cow<'_, str> {
+    match text.char_indices().nth(MOST) {
+        Some((end, _)) => Cow::Owned(format!("{}…", &text[..end])),
+        None => Cow::Borrowed(text),
+    }
+}
+
+/// A text in quotes for a message, cut where it is too long.
+pub fn quoted(text: &str) -> String {
+    format!("\"{}\"", clipped(text))
 }
