@@ -14,6 +14,7 @@ const LONG: f64 = 1e3;
 pub(super) fn notes(flow: &Flow, walls: &[Wall], injections: &[Injected]) -> Vec<String> {
     let mut notes = far_walls(walls, injections);
     if let Flow::Table(table) = flow {
+        notes.extend(table.notes().iter().map(|note| format!("flow table: {note}")));
         notes.extend(injections.iter().filter_map(|i| outside(table.bounds(), i)));
     }
     notes
