@@ -93,13 +93,23 @@ const LARGEST: u64 = 64 << 20;
 
 /// The text of a file named by the user.
 pub fn read(path: &Path) -> Result<String, Failure> {
+    String::from_utf8(bytes(path)?).map_err(|_| Failure::input(format!("{}: not a text in UTF-8", path.display())))
+}
+
+/// The text of a file of measured points, in whatever encoding a spreadsheet chose.
+pub fn read_points(path: &Path) -> Result<String, Failure> {
+    let text = carom_lab::points::text(&bytes(path)?);
+    text.map_err(|e| Failure::input(format!("{}: {e}", path.display())))
+}
+
+fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
     use io::Read as _;
     let name = path.display().to_string();
-    let mut text = String::new();
+    let mut bytes = Vec::new();
     let file = std::fs::File::open(path).map_err(|e| of_file(&name, &e))?;
-    file.take(LARGEST + 1).read_to_string(&mut text).map_err(|e| of_file(&name, &e))?;
-    if text.len() as u64 > LARGEST {
+    file.take(LARGEST + 1).read_to_end(&mut bytes).map_err(|e| of_file(&name, &e))?;
+    if bytes.len() as u64 > LARGEST {
         return Err(Failure::input(format!("{name}: larger than 64 MiB, which no such file is")));
     }
-    Ok(text)
+    Ok(bytes)
 }

@@ -25,6 +25,7 @@ mod head;
 mod heading;
 mod scan;
 
+pub use decode::text;
 pub use heading::Heading;
 pub use scan::Field;
 

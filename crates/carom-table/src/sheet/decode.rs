@@ -19,8 +19,11 @@ const KNOWN: [(&[u8], &str); 8] = [
     (b"\x1f\x8b", "a compressed file: unpack it first"),
 ];
 
-/// The text: UTF-8, UTF-16 by its mark, else Latin-1.
-pub(super) fn text(bytes: &[u8]) -> Result<Cow<'_, str>, &'static str> {
+/// The text of a file: UTF-8, UTF-16 by its mark, else Latin-1.
+///
+/// # Errors
+/// What the file is instead of a text.
+pub fn text(bytes: &[u8]) -> Result<Cow<'_, str>, &'static str> {
     if let Some((_, what)) = KNOWN.iter().find(|(mark, _)| bytes.starts_with(mark)) {
         return Err(what);
     }

@@ -123,6 +123,12 @@ const KNOWN: [(&str, &[&str]); 9] = [
     ("omega", &["om", "specific_diss_rate", "specific_dissipation_rate", "turbulence_eddy_frequency"]),
 ];
 
+/// What an array or a column of that name is.
+pub(super) fn alias(name: &str) -> Option<&'static str> {
+    let plain = Heading::of(name).name;
+    KNOWN.iter().find(|(key, others)| *key == plain || others.contains(&plain.as_str())).map(|(key, _)| *key)
+}
+
 /// What a column holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Quantity {

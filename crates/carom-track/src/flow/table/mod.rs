@@ -15,6 +15,7 @@
 //! # Ok::<(), carom_track::flow::TableError>(())
 //! ```
 
+mod arrays;
 mod columns;
 mod csv;
 mod error;
@@ -173,8 +174,10 @@ impl Table {
         csv::read(&bytes, &Named::new())
     }
 
-    /// Reads legacy VTK (`DATASET RECTILINEAR_GRID` or `STRUCTURED_POINTS`, ASCII or binary) with point data: a vector
-    /// array named `velocity` or `U`, or the only one there is, and optionally scalars `k` and `epsilon`, in any case.
+    /// Reads legacy VTK (`DATASET RECTILINEAR_GRID` or `STRUCTURED_POINTS`, ASCII or binary) with point data, or else cell data, whose
+    /// values are those of the cells' middles: a vector array named `velocity` or `U`, or the only one there is, and optionally scalars
+    /// `k` and `epsilon` (or `omega`), in any case. What `vtkValidPointMask` and `vtkGhostType` mark as not valid is no data: there the
+    /// nearest valid values hold.
     ///
     /// # Errors
     /// [`TableError`], naming the place.
@@ -183,7 +186,7 @@ impl Table {
     }
 
     /// Reads VTK XML (`RectilinearGrid` or `ImageData` of one piece; ASCII or binary, inline or appended, plain or compressed with
-    /// zlib) with point data as in [`Table::from_vtk`].
+    /// zlib) with point or cell data as in [`Table::from_vtk`].
     ///
     /// # Errors
     /// [`TableError`], naming the array.
