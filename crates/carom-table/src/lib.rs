@@ -296,6 +296,19 @@ impl Table {
         writer.finish()
     }
 
+    /// The table with units in its columns' names, `speed (m/s)`, for a file that says its units itself.
+    ///
+    /// # Errors
+    /// [`TableError::Mismatch`] where two names are the same then.
+    pub fn headed(&self) -> Result<Self, TableError> {
+        let columns = self.columns.iter().map(|column| {
+            let mut column = column.clone();
+            (column.name, column.unit) = (column.field().heading(), String::new());
+            column
+        });
+        Self::new(columns)
+    }
+
     /// The table as CSV text: one header line of bare names, then a line for each row.
     ///
     /// # Errors

@@ -23,12 +23,17 @@ pub(super) struct Chosen {
     by_frequency: bool,
     masks: Vec<(usize, Validity)>,
     notes: Vec<String>,
+    /// Whether the data are of cells.
+    by_cell: bool,
 }
 
 impl Chosen {
     /// Of point data, or of cell data.
     pub fn of(arrays: &[Described], cells: bool) -> Result<Self, String> {
-        let mut chosen = Self { velocity: velocity(arrays)?, ..Self::default() };
+        let mut chosen = Self { velocity: velocity(arrays)?, by_cell: cells, ..Self::default() };
+        if cells {
+            chosen.notes.push("its data are of cells: their values hold at the middles".to_owned());
+        }
         let scalar = |key: &str| {
             arrays
                 .iter()
@@ -76,7 +81,11 @@ impl Chosen {
         hidden: Option<&[bool]>,
     ) -> Result<Table, String> {
         rising(&axes)?;
+        let given = axes.each_ref().map(Vec::len);
+        let (axes, source) = if self.by_cell { (middles(axes), cells(given)) } else { (axes, given) };
         let size = axes.each_ref().map(Vec::len);
+        // a cell at the edge holds from its middle to its face
+        let place = |i: usize, c: usize| if size[c] > source[c] { i.saturating_sub(1).min(source[c] - 1) } else { i };
         let of = |array: usize, n: usize, component: usize| {
             let width = arrays.get(array).map_or(1, |a| a.components);
             values
@@ -91,7 +100,7 @@ impl Chosen {
         for i in 0..size[0] {
             for j in 0..size[1] {
                 for l in 0..size[2] {
-                    let n = i + size[0] * (j + size[1] * l);
+                    let n = place(i, 0) + source[0] * (place(j, 1) + source[1] * place(l, 2));
                     let holds = self.masks.iter().all(|(array, kind)| kind.holds(of(*array, n, 0)))
                         && !hidden.is_some_and(|h| h.get(n) == Some(&true));
                     valid.push(holds);
@@ -118,11 +127,6 @@ impl Chosen {
         }
         self.notes.extend(fill(size, &mut nodes, &mut valid)?);
         Ok(Table::new(axes, nodes, self.k.is_some()).noting(self.notes))
-    }
-
-    /// Adds what is to be told.
-    pub fn note(&mut self, note: impl Into<String>) {
-        self.notes.push(note.into());
     }
 }
 
@@ -162,9 +166,15 @@ pub(super) fn cells(nodes: [usize; 3]) -> [usize; 3] {
     nodes.map(|n| n.saturating_sub(1).max(1))
 }
 
-/// The middles of the cells.
-pub(super) fn middles(axes: [Vec<f64>; 3]) -> [Vec<f64>; 3] {
-    axes.map(|a| if a.len() < 2 { a } else { a.windows(2).map(|w| 0.5 * w[0] + 0.5 * w[1]).collect() })
+/// The middles of the cells, between the first face and the last.
+fn middles(axes: [Vec<f64>; 3]) -> [Vec<f64>; 3] {
+    axes.map(|a| match a[..] {
+        [first, .., last] => {
+            let middles = a.windows(2).map(|w| 0.5 * w[0] + 0.5 * w[1]);
+            std::iter::once(first).chain(middles).chain([last]).collect()
+        }
+        _ => a,
+    })
 }
 
 /// The nodes all of whose cells a mask of cells hides.

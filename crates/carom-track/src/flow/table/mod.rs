@@ -277,6 +277,11 @@ impl Table {
         first
     }
 
+    /// Whether a piece lies outside the grid, along an axis on which something may vary.
+    pub fn is_outside(&self, piece: Piece) -> bool {
+        self.axes.iter().zip(piece.0).any(|(a, i)| a.at.len() > 1 && (i == 0 || i as usize == a.at.len()))
+    }
+
     /// Edges of a piece across an axis.
     #[inline]
     pub(super) fn edges(&self, piece: Piece, axis: usize) -> [f64; 2] {

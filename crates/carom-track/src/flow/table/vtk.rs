@@ -3,7 +3,7 @@
 //! Read here rather than by a library: the one there is for Rust (vtkio 0.6) rests on releases of its parsers that the
 //! compiler announces it will reject.
 
-use super::arrays::{Chosen, Described, cells, hidden, middles, rising};
+use super::arrays::{Chosen, Described, cells, hidden, rising};
 use super::columns::Validity;
 use super::{Table, TableError};
 use carom_table::{clipped, quoted};
@@ -17,14 +17,11 @@ pub(super) fn read(file: &[u8]) -> Result<Table, TableError> {
     let point_data: Vec<Described> = points.iter().map(describe).collect();
     let cell_data: Vec<Described> = of_cells.iter().map(describe).collect();
     let wrong = |reader: &Reader, what: String| reader.error(what);
-    let (mut chosen, by_cell) = match Chosen::of(&point_data, false) {
+    let (chosen, by_cell) = match Chosen::of(&point_data, false) {
         Ok(chosen) => (chosen, false),
         Err(what) => (Chosen::of(&cell_data, true).map_err(|_| wrong(&reader, what))?, true),
     };
     let (described, arrays) = if by_cell { (cell_data, &of_cells) } else { (point_data, &points) };
-    if by_cell {
-        chosen.note("its data are of cells: their values hold at the middles");
-    }
     let mut values = vec![None; arrays.len()];
     for i in chosen.used() {
         values[i] = Some(reader.decoded(&arrays[i])?);
@@ -34,7 +31,6 @@ pub(super) fn read(file: &[u8]) -> Result<Table, TableError> {
         Some((array, kind)) => Some(hidden(size, kind, &reader.decoded(array)?)),
         None => None,
     };
-    let axes = if by_cell { middles(axes) } else { axes };
     chosen.table(axes, &described, &values, hidden.as_deref()).map_err(|what| reader.error(what))
 }
 

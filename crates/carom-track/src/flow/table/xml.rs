@@ -4,7 +4,7 @@
 //! XML, base64 and zlib are those of roxmltree, base64 and flate2, which the program holds for its pictures anyway; vtkio, the
 //! library for VTK, would bring second ones, and LZ4 and LZMA, of which ParaView's default needs none.
 
-use super::arrays::{Chosen, Described, cells, hidden, middles};
+use super::arrays::{Chosen, Described, cells, hidden};
 use super::columns::Validity;
 use super::{Table, TableError};
 use base64::Engine as _;
@@ -54,12 +54,6 @@ fn read_or_say(file: &[u8]) -> Result<Table, String> {
         let [x, y, z] = all[..] else { return Err("Coordinates needs three arrays".to_owned()) };
         [form.values(x, nx)?, form.values(y, ny)?, form.values(z, nz)?]
     };
-    let axes = if fields.of_cells {
-        super::arrays::rising(&axes)?;
-        middles(axes)
-    } else {
-        axes
-    };
     let Fields { described, chosen, .. } = fields;
     chosen.table(axes, &described, &values, hidden.as_deref())
 }
@@ -83,10 +77,7 @@ impl<'f, 'a, 'b> Fields<'f, 'a, 'b> {
             let data = child(piece, name).ok_or_else(|| format!("no {name}"))?;
             let arrays: Vec<Node> = arrays(data).filter(|a| a.attribute("type") != Some("String")).collect();
             let described = arrays.iter().map(|a| describe(*a)).collect::<Result<Vec<_>, _>>()?;
-            let mut chosen = Chosen::of(&described, of_cells)?;
-            if of_cells {
-                chosen.note("its data are of cells: their values hold at the middles");
-            }
+            let chosen = Chosen::of(&described, of_cells)?;
             Ok(Self { form, piece, arrays, described, chosen, size, of_cells })
         };
         fields("PointData", false).or_else(|what| fields("CellData", true).map_err(|_| what))

@@ -77,8 +77,10 @@ fn masks_and_cells() {
     // two cells, each 1 m wide: 1 m/s in the first, 3 m/s in the second, whose middle is 2.5 m
     let cells = "CELL_DATA 2\nVECTORS U float\n1 0 0 3 0 0\n";
     let table = Table::from_vtk(format!("{HEAD}{cells}").as_bytes()).unwrap();
-    assert_eq!((table.size(), table.bounds()), ([1, 2, 1], [[0.5, 0.5, 0.0], [0.5, 2.5, 0.0]]));
-    assert_eq!(table.velocity([0.0, 1.5, 0.0]), [2.0, 0.0, 0.0]);
+    assert_eq!((table.size(), table.bounds()), ([3, 4, 1], [[0.0; 3], [1.0, 4.0, 0.0]]));
+    for (y, u) in [(0.2, 1.0), (1.5, 2.0), (3.5, 3.0)] {
+        assert_eq!(table.velocity([0.0, y, 0.0]), [u, 0.0, 0.0]);
+    }
     // the second cell is blanked: its outer nodes are no data
     let ghost = "CELL_DATA 2\nSCALARS vtkGhostType unsigned_char 1\nLOOKUP_TABLE default\n0 32\n";
     let u = "POINT_DATA 6\nVECTORS U float\n1 0 0 1 0 0 1 0 0 1 0 0 9 0 0 9 0 0\n";

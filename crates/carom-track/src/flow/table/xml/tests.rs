@@ -116,7 +116,7 @@ fn what_is_not_valid_is_no_data() {
 fn data_of_cells_hold_at_their_middles() {
     let u = array("U", 3, "1 0 0 2 0 0 3 0 0 4 0 0");
     let table = image(&format!("<PointData></PointData><CellData>{u}</CellData>")).unwrap();
-    assert_eq!((table.size(), table.bounds()), ([4, 1, 1], [[0.5, 0.5, 0.5], [3.5, 0.5, 0.5]]));
+    assert_eq!((table.size(), table.bounds()), ([6, 3, 3], [[0.0; 3], [4.0, 1.0, 1.0]]));
     assert_eq!(table.velocity([1.0, 0.9, 0.1]), [1.5, 0.0, 0.0]);
     assert!(table.notes()[0].contains("of cells"), "{:?}", table.notes());
 }
