@@ -79,7 +79,7 @@ impl std::str::FromStr for Over {
             format!("unknown quantity '{name}'; {near}known are {}", names.join(", "))
         })?;
         let (from, to) = range.split_once("..").ok_or(form)?;
-        let unit = length_unit(to).filter(|_| quantity == Swept::Diameter);
+        let unit = length_unit(&with_unit(from, to)).filter(|_| quantity == Swept::Diameter);
         let (from, to) = (quantity.read(&with_unit(from, to))?, quantity.read(to)?);
         if from < to {
             Ok(Self { quantity, from, to, unit })
