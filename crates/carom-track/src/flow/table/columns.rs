@@ -240,6 +240,11 @@ impl Columns {
                 }
             };
         }
+        for (i, (key, _)) in KNOWN.iter().enumerate() {
+            if let Some(other) = (0..i).find(|j| places[*j].is_some() && places[*j] == places[i]) {
+                return Err(TableError::OneColumn { keys: [KNOWN[other].0, key] });
+            }
+        }
         let [.., u, _, _, k, epsilon, omega] = places;
         if u.is_none() {
             let all: Vec<String> = headings.iter().map(|h| format!("\"{}\"", clipped(&h.written))).take(20).collect();

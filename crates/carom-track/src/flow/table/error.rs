@@ -45,6 +45,12 @@ pub enum TableError {
         /// Another.
         b: String,
     },
+    /// One column for two things.
+    #[error("flow table: the case gives one column for both {} and {}", .keys[0], .keys[1])]
+    OneColumn {
+        /// What it is given for.
+        keys: [&'static str; 2],
+    },
     /// A unit in the case that differs from the table's.
     #[error("flow table: the case gives the unit {} for column {}, which names another", quoted(.b), quoted(.a))]
     TwoUnits {

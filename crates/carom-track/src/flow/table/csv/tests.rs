@@ -127,3 +127,31 @@ fn errors_name_the_place() {
     let error = Table::from_file("duct.vtu", b"<?xml").unwrap_err().to_string();
     assert!(error.contains("Resample To Image"), "{error}");
 }
+
+/// Tables changed by chance are read or refused; the seed is printed.
+#[test]
+fn bytes_by_chance_never_panic() {
+    let seed = std::env::var("CAROM_SEED").ok().and_then(|s| s.parse().ok()).unwrap_or(1u64);
+    println!("seed {seed} (CAROM_SEED)");
+    let mut state = seed;
+    let mut next = move |below: usize| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as usize % below
+    };
+    let good = "[Name]\nA\n\n[Data]\nX [ mm ], Y [ m ], Velocity u [ m s^-1 ], vtkValidPointMask, k, omega\n0,0,1,1,1,2\n1,0,1,0,1,2\n0,1,2,1,1,2\n1,1,2,1,1,2\n";
+    let parts = [",", ";", "\n", "\"", "#N/A", "nan", "1e308", "-", "[", "u", "x", "\u{0}", "1e-320", "%"];
+    for _ in 0..2_000 {
+        let mut bytes = good.as_bytes().to_vec();
+        for _ in 0..=next(4) {
+            let at = next(bytes.len());
+            match next(3) {
+                0 => bytes[at] = next(256) as u8,
+                1 => drop(bytes.splice(at..at, parts[next(parts.len())].bytes())),
+                _ => drop(bytes.drain(at..(at + next(8)).min(bytes.len()))),
+            }
+        }
+        if let Ok(table) = Table::from_file("f.csv", &bytes) {
+            let _ = (table.velocity([0.5; 3]), table.notes().len());
+        }
+    }
+}
