@@ -4,7 +4,7 @@ mod by;
 mod over;
 
 pub use by::By;
-pub use over::{Over, Swept, with_unit};
+pub use over::{LengthUnit, Over, Swept, length_unit, with_unit};
 
 use crate::failure::Failure;
 use crate::motion::ImpactArgs;
@@ -30,7 +30,7 @@ pub struct GridArgs {
     /// Equal steps instead of equal ratios (an angle always has equal steps)
     #[arg(long, help_heading = "Sweep")]
     linear: bool,
-    /// Write the whole table to a file (.csv, .parquet or .json)
+    /// Write the whole table to a file (.csv, .parquet or .json), or as CSV to standard output: -
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     out: Option<PathBuf>,
     /// Draw the curves (.svg or .png)
@@ -252,6 +252,25 @@ impl Grid<'_> {
         self.args.by.iter().any(|b| b.key == flag || (b.key == "pair" && (flag == "sphere" || flag == "surface")))
     }
 
+    /// The unit that diameters were given in.
+    fn unit(&self) -> Option<LengthUnit> {
+        let by = self.args.by.iter().find(|by| by.key == Swept::Diameter.flag());
+        self.over.unit.or_else(|| length_unit(by?.values.first()?))
+    }
+
+    /// With diameters in the unit that they were given in.
+    fn in_units(&self, table: Table) -> Result<Table, Failure> {
+        let (name, si) = Swept::Diameter.column();
+        let Some((unit, factor)) = self.unit() else { return Ok(table) };
+        let columns = table.columns().iter().map(|column| match &column.values {
+            Values::Float(v) if column.name == name && column.unit == si => {
+                Column::float(name, unit, v.iter().map(|d| fifteen_digits(d / factor)))
+            }
+            _ => column.clone(),
+        });
+        Ok(Table::new(columns)?)
+    }
+
     /// Shows the result: files where named, else the table.
     pub fn show(
         &self,
@@ -260,15 +279,24 @@ impl Grid<'_> {
         short: impl FnOnce() -> Result<Table, Failure>,
         plot: impl FnOnce() -> Plot,
     ) -> Result<(), Failure> {
-        files.write(&whole, plot)?;
+        if self.args.json && files.to_stdout() {
+            return Err(Failure::input("--json and --out - both go to standard output; keep one"));
+        }
+        // JSON is in SI units, whatever was given
+        files.write(|| if files.is_json() { whole() } else { self.in_units(whole()?) }, plot)?;
         if self.args.json {
             output::print(&whole()?.to_json()?)
         } else if !files.any() {
-            output::print(&telling(short()?)?.to_text())
+            output::print(&self.in_units(telling(short()?)?)?.to_text())
         } else {
             Ok(())
         }
     }
+}
+
+/// Without what dividing by a unit leaves in the last digit.
+fn fifteen_digits(x: f64) -> f64 {
+    format!("{x:.14e}").parse().unwrap_or(x)
 }
 
 /// Without the columns that have no value at all.

@@ -40,6 +40,9 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<(), Failure> {
     let motion = args.case.motion.complete()?;
     let files = Files::check(args.history.as_ref(), args.plot.as_ref())?;
+    if files.to_stdout() {
+        return Err(Failure::input("--history -: the answer goes to standard output; name a file"));
+    }
     let law = args.case.law.compile(args.case.motion.is_oblique())?;
     let met = motion.meet(&law.wall).map_err(|e| refused(e, &motion))?;
     let answer = Answer::new(&law, &motion, &met)?;

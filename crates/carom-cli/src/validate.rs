@@ -80,7 +80,17 @@ fn add_points(experiments: &mut [Experiment], path: &Path) -> Result<(), Failure
         let known = names.join(", ");
         return Err(Failure::input(format!("--points {file}: no experiment '{stem}'; {near}known are {known}")));
     };
-    Ok(points::add(experiment, &file, &output::read(path)?)?)
+    let text = output::read_points(path)?;
+    points::add(experiment, &file, &text)?;
+    tell_left_out(&file, &points::read(&text).map(|rows| rows.left_out).unwrap_or_default());
+    Ok(())
+}
+
+/// Says which columns of a file of points nothing reads.
+pub fn tell_left_out(file: &str, columns: &[String]) {
+    if !columns.is_empty() {
+        say(&format!("note: {file}: not used: {}", columns.join(", ")));
+    }
 }
 
 fn failed(error: LabError, folder: Option<&Path>) -> Failure {

@@ -99,6 +99,7 @@ impl Case {
         injection::distinct(read.wall.iter().map(|w| &w.value.name), "wall")?;
         let mut notes = Vec::new();
         let walls = read.wall.iter().map(|w| wall::read(w, &files, &mut notes)).collect::<Result<Vec<_>, _>>()?;
+        notes.extend(stl::left_out(read.wall.iter().filter_map(|w| w.value.stl.as_ref()), &files));
         let largest = injections.iter().map(|i| i.largest).fold(0.0, f64::max);
         wall::contradictions(&read.wall, &walls, largest)?;
         let behaviors = read

@@ -160,13 +160,13 @@ impl LawError {
 
     /// What is wrong, in the words of a front.
     pub fn message_in(&self, words: &dyn Wording) -> String {
-        let message = self.problem.message(words);
+        let message = shortened(self.problem.message(words));
         self.within.as_ref().map_or(message.clone(), |within| format!("{within}: {message}"))
     }
 
     /// What would be right, in the words of a front.
     pub fn help_in(&self, words: &dyn Wording) -> Option<String> {
-        self.problem.help(words)
+        self.problem.help(words).map(shortened)
     }
 
     /// Message and remedy in a line, in the words of a front.
@@ -225,9 +225,45 @@ pub fn did_you_mean<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a st
     nearest(wrong, candidates).map(|c| format!("did you mean {c}?"))
 }
 
+/// Characters of what was written that a message repeats, where nothing parts them.
+const LONG: usize = 60;
+/// Characters of a message.
+const LONGEST: usize = 2000;
+
+/// A message in which what somebody wrote without end is cut.
+fn shortened(message: String) -> String {
+    if message.len() <= LONG {
+        return message;
+    }
+    let mut short = String::with_capacity(message.len().min(LONGEST));
+    for (i, word) in message.split(' ').enumerate() {
+        if short.len() > LONGEST {
+            short.push('…');
+            break;
+        }
+        if i > 0 {
+            short.push(' ');
+        }
+        match word.char_indices().nth(LONG) {
+            // what is a little longer is left whole, such as a path
+            Some((end, _)) if word.chars().nth(LONG + LONG / 2).is_some() => {
+                short.push_str(&word[..end]);
+                short.push('…');
+                short.extend(word.chars().next_back().filter(|c| matches!(c, '\'' | '"' | ':' | ';' | ',')));
+            }
+            _ => short.push_str(word),
+        }
+    }
+    short
+}
+
 /// The candidate nearest to what was written, if one is near.
 #[cfg(feature = "std")]
 pub(crate) fn nearest<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    // what is as long as that is no slip of the pen
+    if wrong.len() > 100 {
+        return None;
+    }
     let lower = wrong.to_lowercase();
     candidates
         .into_iter()

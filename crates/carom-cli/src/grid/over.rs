@@ -53,6 +53,19 @@ pub struct Over {
     pub from: f64,
     /// The larger end.
     pub to: f64,
+    /// The unit of length it was given in.
+    pub unit: Option<LengthUnit>,
+}
+
+/// A unit of length, and what it is in metres.
+pub type LengthUnit = (&'static str, f64);
+
+/// The unit of length that a text ends in; none for a bare number, or a unit that nobody gives diameters in.
+pub fn length_unit(text: &str) -> Option<LengthUnit> {
+    const UNITS: [LengthUnit; 7] =
+        [("nm", 1e-9), ("um", 1e-6), ("µm", 1e-6), ("μm", 1e-6), ("mm", 1e-3), ("cm", 1e-2), ("m", 1.0)];
+    let given = text.trim();
+    UNITS.into_iter().find(|(unit, _)| given.strip_suffix(unit).is_some_and(|n| n.trim().parse::<f64>().is_ok()))
 }
 
 impl std::str::FromStr for Over {
@@ -66,9 +79,10 @@ impl std::str::FromStr for Over {
             format!("unknown quantity '{name}'; {near}known are {}", names.join(", "))
         })?;
         let (from, to) = range.split_once("..").ok_or(form)?;
+        let unit = length_unit(&with_unit(from, to)).filter(|_| quantity == Swept::Diameter);
         let (from, to) = (quantity.read(&with_unit(from, to))?, quantity.read(to)?);
         if from < to {
-            Ok(Self { quantity, from, to })
+            Ok(Self { quantity, from, to, unit })
         } else {
             Err(format!("the range '{range}' does not rise; {form}"))
         }

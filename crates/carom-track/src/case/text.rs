@@ -59,6 +59,7 @@ pub(super) struct FlowText {
     pub diameter: Option<At<Length>>,
     pub speed: Option<At<Speed>>,
     pub file: Option<At<String>>,
+    pub columns: Option<At<crate::flow::Named>>,
 }
 
 #[derive(Debug, Default, serde::Deserialize)]

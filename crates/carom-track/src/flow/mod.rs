@@ -19,7 +19,7 @@ pub use piece::{Exit, Piece};
 pub use pipe::Pipe;
 pub use profile::Profile;
 pub use stagnation::{Stagnation, Symmetry};
-pub use table::{Table, TableError};
+pub use table::{Named, Table, TableError};
 
 use crate::geometry::Path;
 use crate::vector::Vec3;

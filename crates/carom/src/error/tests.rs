@@ -67,3 +67,18 @@ fn a_front_has_words_of_its_own() {
     let error = LawError::from(Problem::UnknownMaterial { name: "x".into(), near: None });
     assert!(error.said_in(&Flags).contains("see the list") && !error.to_string().contains("see the list"));
 }
+
+#[test]
+fn what_is_written_without_end_is_not_repeated() {
+    let long = "x".repeat(1_000_000);
+    let error = LawError::new(alloc::format!("unknown law '{long}'"));
+    assert_eq!(error.to_string(), alloc::format!("unknown law '{}…'", "x".repeat(59)));
+    let many = LawError::new("a b ".repeat(100_000));
+    assert!(many.to_string().len() < 2100);
+    // a path keeps its length
+    let path = alloc::format!("{}/wall.stl: no such file", "a".repeat(70));
+    assert_eq!(LawError::new(path.clone()).to_string(), path);
+    assert!("1 xxxxx".parse::<crate::units::Length>().is_err());
+    assert!(alloc::format!("1 {long}").parse::<crate::units::Length>().is_err());
+    assert_eq!(super::did_you_mean(&long, ["glass"]), None);
+}

@@ -226,7 +226,7 @@ fn product(chars: &[char], mut i: usize) -> Result<Product, (usize, String)> {
 }
 
 fn unknown(name: &str) -> String {
-    let near = |u: &&str| name.len() > 1 && distance_is_one(u, name);
+    let near = |u: &&str| (2..40).contains(&name.len()) && distance_is_one(u, name);
     match UNITS.iter().map(|u| u.0).filter(near).min() {
         Some(u) => format!("unknown unit '{name}', did you mean '{u}'?"),
         None => format!("unknown unit '{name}'"),
