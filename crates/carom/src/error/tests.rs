@@ -6,6 +6,9 @@ fn suggestions_are_near_or_absent() {
     assert_eq!(did_you_mean("coper", names), Some("did you mean copper?".into()));
     assert_eq!(did_you_mean("Coppre", names), Some("did you mean copper?".into()));
     assert_eq!(did_you_mean("unobtainium", names), None);
+    // one slip in a short word, two from six letters on
+    assert_eq!(did_you_mean("wood", names), None);
+    assert_eq!(did_you_mean("nikcle", names), Some("did you mean nickel?".into()));
 }
 
 #[test]
