@@ -207,9 +207,12 @@ impl LawError {
 impl From<toml::de::Error> for LawError {
     fn from(e: toml::de::Error) -> Self {
         let message = e.message().trim().replace('\n', ", ");
-        unknown_key(&message).unwrap_or_else(|| Self::new(message)).at(e.span())
+        unknown_key(&message).or_else(|| plain::said(&message)).unwrap_or_else(|| Self::new(message)).at(e.span())
     }
 }
+
+#[cfg(feature = "toml")]
+mod plain;
 
 /// serde's "unknown field `a`, expected one of `b`, `c`", said as everything else here is.
 #[cfg(feature = "toml")]
