@@ -1,7 +1,8 @@
 //! The command line as a whole.
 
 use crate::failure::Failure;
-use crate::{capture, export, fit, impact, materials, merge, run, sweep, validate};
+use crate::{capture, export, fit, impact, materials, merge, run, shell, sweep, validate};
+use clap::builder::styling::{AnsiColor, Styles};
 use clap::{Parser, Subcommand};
 
 const EXAMPLES: &str = "\
@@ -18,9 +19,16 @@ Examples:
 Quantities take a unit (90um, 2m/s, 190GPa) or are SI numbers. `carom SUBCOMMAND --help` says more.
 Exit codes: 0 done, 2 the input is wrong, 1 anything else.";
 
+/// On a terminal that takes colours; clap looks, and heeds NO_COLOR.
+const STYLES: Styles = Styles::styled()
+    .header(AnsiColor::Green.on_default().bold())
+    .usage(AnsiColor::Green.on_default().bold())
+    .literal(AnsiColor::Cyan.on_default().bold())
+    .placeholder(AnsiColor::Cyan.on_default());
+
 /// What happens when a small particle hits a wall: does it stick or bounce, how fast, at what angle, with what spin
 #[derive(Parser)]
-#[command(name = "carom", version, after_help = EXAMPLES, max_term_width = 110, subcommand_required = true)]
+#[command(name = "carom", version, after_help = EXAMPLES, max_term_width = 110, styles = STYLES, subcommand_required = true)]
 pub struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -37,6 +45,8 @@ enum Command {
     Fit(Box<fit::Args>),
     Validate(validate::Args),
     Export(Box<export::Args>),
+    Completions(shell::Completions),
+    Man(shell::Man),
 }
 
 impl Cli {
@@ -52,6 +62,8 @@ impl Cli {
             Command::Fit(args) => fit::run(args),
             Command::Validate(args) => validate::run(args),
             Command::Export(args) => export::run(args),
+            Command::Completions(args) => shell::completions(args),
+            Command::Man(args) => shell::man(args),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::failure::{Failure, of_file, say};
 use carom_report::plot::ImageFormat;
-use carom_report::{Format, Plot, Table};
+use carom_report::{Format, Plot, ReportError, Table};
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
@@ -67,6 +67,15 @@ impl<'a> Files<'a> {
         table: impl FnOnce() -> Result<Table, Failure>,
         plot: impl FnOnce() -> Plot,
     ) -> Result<(), Failure> {
+        self.write_drawn(table, |path| plot().write(path))
+    }
+
+    /// Likewise, with what draws the picture.
+    pub fn write_drawn(
+        &self,
+        table: impl FnOnce() -> Result<Table, Failure>,
+        draw: impl FnOnce(&Path) -> Result<(), ReportError>,
+    ) -> Result<(), Failure> {
         match self.table {
             Some(path) if is_stdout(path) => print(&table()?.headed()?.to_csv()?)?,
             Some(path) if Format::from_path(path)? == Format::Csv => table()?.headed()?.write(path)?,
@@ -74,7 +83,7 @@ impl<'a> Files<'a> {
             None => {}
         }
         if let Some(path) = self.plot {
-            plot().write(path).map_err(|e| {
+            draw(path).map_err(|e| {
                 if let Some(written) = self.table.filter(|path| !is_stdout(path)) {
                     let _ = std::fs::remove_file(written);
                 }

@@ -207,9 +207,12 @@ impl LawError {
 impl From<toml::de::Error> for LawError {
     fn from(e: toml::de::Error) -> Self {
         let message = e.message().trim().replace('\n', ", ");
-        unknown_key(&message).unwrap_or_else(|| Self::new(message)).at(e.span())
+        unknown_key(&message).or_else(|| plain::said(&message)).unwrap_or_else(|| Self::new(message)).at(e.span())
     }
 }
+
+#[cfg(feature = "toml")]
+mod plain;
 
 /// serde's "unknown field `a`, expected one of `b`, `c`", said as everything else here is.
 #[cfg(feature = "toml")]
@@ -268,9 +271,26 @@ pub(crate) fn nearest<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a 
     candidates
         .into_iter()
         .map(|c| (strsim::damerau_levenshtein(&lower, &c.to_lowercase()), c))
-        .filter(|&(distance, c)| distance <= 1 + c.len().min(lower.len()) / 4)
+        .filter(|&(distance, c)| distance <= slips(c.chars().count().min(lower.chars().count())))
         .min()
         .map(|(_, c)| c)
+}
+
+/// Slips of the hand that leave a word of that length recognisable: more would make it another word.
+#[cfg(feature = "std")]
+fn slips(length: usize) -> usize {
+    if length < 6 { 1 } else { 2 }
+}
+
+/// The candidate, if no more than so many slips lie between.
+#[cfg(feature = "std")]
+pub(crate) fn nearest_within<'a>(wrong: &str, candidate: &'a str, slips: usize) -> Option<&'a str> {
+    (strsim::damerau_levenshtein(&wrong.to_lowercase(), &candidate.to_lowercase()) <= slips).then_some(candidate)
+}
+
+#[cfg(not(feature = "std"))]
+pub(crate) fn nearest_within<'a>(_: &str, _: &'a str, _: usize) -> Option<&'a str> {
+    None
 }
 
 #[cfg(not(feature = "std"))]

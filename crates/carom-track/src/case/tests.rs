@@ -56,6 +56,8 @@ fn read(text: &str) -> Result<Case, CaseError> {
 fn a_good_case_reads_whole() {
     let case = read(GOOD).unwrap();
     assert_eq!(case.count(), 10);
+    let thousand = GOOD.replacen("count = 10\n", "count = 1e3\n", 1);
+    assert_eq!(read(&thousand).unwrap().count(), 1000);
     assert_eq!(case.title, "Copper in a channel");
     assert_eq!(case.domain.walls().len(), 3);
     assert_eq!((case.settings.until, case.settings.seed), (2.0, 7));
@@ -103,6 +105,12 @@ fn mistakes_are_refused_at_their_line() {
         &["standard deviation"],
     );
     refused("count = 10", "count = 10\nparcels = 3", &["parcels"]);
+    refused(
+        "count = 10",
+        "count = 1.5",
+        &["1.5 stands here", "a whole number, zero or more, such as 1000 or 1e3, is wanted"],
+    );
+    refused("count = 10", "count = -1", &["-1 stands here"]);
     refused("until = \"2 s\"", "until = \"-2 s\"", &["until"]);
     refused("until = \"2 s\"", "until = \"2 s\"\ntolerance = 0.5", &["tolerance"]);
     refused("until = \"2 s\"", "until = \"inf\"", &["inf"]);
