@@ -131,7 +131,8 @@ impl Figures {
         if let Some(n) = &self.adhesion_numbers {
             let mut text = format!("Tabor's parameter {} ({})", number(n.tabor), n.regime);
             if let Some(theta) = n.adhesion_parameter {
-                text += &format!(", adhesion parameter {}", number(theta));
+                let of = if n.asperities { " of the asperities" } else { "" };
+                text += &format!(", adhesion parameter{of} {}", number(theta));
             }
             lines.add("adhesion", text);
         }
