@@ -13,6 +13,9 @@ const LONG: f64 = 1e3;
 /// What to say of a case's lengths.
 pub(super) fn notes(flow: &Flow, walls: &[Wall], injections: &[Injected]) -> Vec<String> {
     let mut notes = far_walls(walls, injections);
+    if walls.is_empty() {
+        notes.push("the case has no [[wall]]: nothing is met, and the end of the run alone ends a flight".to_owned());
+    }
     notes.extend(small_walls(walls, injections));
     if let Flow::Table(table) = flow {
         let ([nx, ny, nz], [low, high]) = (table.size(), table.bounds());
