@@ -107,9 +107,9 @@ impl Scaled {
         ticks.into_iter().map(|t| (place(t.value).clamp(0.0, 1.0), t)).collect()
     }
 
-    /// Shown length of the axis, for equal aspect.
+    /// Length of the axis in the data's unit, for equal aspect: axes may show different units.
     pub(super) fn span(&self) -> f64 {
-        self.high - self.low
+        (self.high - self.low) / self.factor
     }
 
     /// Whether equal steps are equal lengths.
@@ -117,9 +117,9 @@ impl Scaled {
         !self.log
     }
 
-    /// Widens the axis about its middle to a shown length.
+    /// Widens the axis about its middle to a length in the data's unit.
     pub(super) fn widen_to(&mut self, span: f64) {
-        let middle = 0.5 * (self.low + self.high);
+        let (middle, span) = (0.5 * (self.low + self.high), span * self.factor);
         (self.low, self.high) = (middle - 0.5 * span, middle + 0.5 * span);
     }
 }
