@@ -52,11 +52,21 @@ impl<'a> Files<'a> {
         table: impl FnOnce() -> Result<Table, Failure>,
         plot: impl FnOnce() -> Plot,
     ) -> Result<(), Failure> {
+        // a frame without a curve tells nobody anything
+        let plot = self.plot.map(|path| (path, plot()));
+        if let Some((path, _)) = plot.as_ref().filter(|(_, plot)| plot.is_empty()) {
+            return Err(Failure::input(format!(
+                "{}: not written, for it would be empty: no point has a value that its axes can show. What is captured has \
+                 no rebound, head-on impacts have no tangential restitution or impulse ratio (give --angle or --spin), and 0 has \
+                 no place on a logarithmic axis",
+                path.display()
+            )));
+        }
         if let Some(path) = self.table {
             table()?.write(path)?;
         }
-        if let Some(path) = self.plot {
-            plot().write(path).map_err(|e| {
+        if let Some((path, plot)) = plot {
+            plot.write(path).map_err(|e| {
                 if let Some(written) = self.table {
                     let _ = std::fs::remove_file(written);
                 }

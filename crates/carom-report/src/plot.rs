@@ -149,7 +149,8 @@ impl Plot {
     /// Whether no series has a value that can be drawn: only a frame would be seen.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        !self.series.iter().any(Series::has_data)
+        let [x, y] = [&self.x, &self.y].map(|axis| axis.scale == Scale::Log);
+        !self.series.iter().any(|series| series.has_data(x, y))
     }
 
     /// The plot as an SVG document.

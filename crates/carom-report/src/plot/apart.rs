@@ -31,7 +31,8 @@ pub(super) fn styled(series: &[Series], frame: &Frame) -> Vec<Series> {
     }
     let outlines: Vec<Vec<Option<Point>>> = styled.iter().map(|s| line(s, frame)).collect();
     for (place, upper) in lines.iter().enumerate() {
-        let below = lines[..place].iter().filter(|lower| lies_on(&outlines[*upper], &outlines[**lower]));
+        let below =
+            lines[..place].iter().filter(|lower| lies_on(&outlines[*upper], &outlines[**lower], frame.rect.bottom));
         let taken: Vec<Dash> = below.filter_map(|lower| dash(&styled[*lower])).collect();
         let free = STYLES.into_iter().find(|style| !taken.contains(style));
         if let (Shape::Line { dash, .. }, Some(free)) = (&mut styled[*upper].shape, free)
@@ -55,15 +56,16 @@ fn line(series: &Series, frame: &Frame) -> Vec<Option<Point>> {
     if let Shape::Line { x, y, .. } = &series.shape { outline(frame, x, y) } else { Vec::new() }
 }
 
-/// Whether most of a line lies on another, both running from left to right.
-fn lies_on(upper: &[Option<Point>], lower: &[Option<Point>]) -> bool {
+/// Whether most of a line lies on another, both running from left to right; what lies on the foot of the frame, where lines of
+/// zeros are, does not count.
+fn lies_on(upper: &[Option<Point>], lower: &[Option<Point>], foot: f64) -> bool {
     let rising = |points: &[Option<Point>]| points.iter().flatten().is_sorted_by(|a, b| a[0] <= b[0]);
     if !rising(upper) || !rising(lower) {
         return false;
     }
     let (mut seen, mut hidden) = (0_usize, 0_usize);
     let lower: Vec<Point> = lower.iter().copied().flatten().collect();
-    for [x, y] in upper.iter().flatten() {
+    for [x, y] in upper.iter().flatten().filter(|p| (p[1] - foot).abs() > CLOSE) {
         seen += 1;
         let next = lower.partition_point(|p| p[0] < *x);
         let mut here = lower[next..].iter().take_while(|p| p[0] - x < 1e-9).peekable();

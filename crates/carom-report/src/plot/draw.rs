@@ -44,15 +44,16 @@ pub(super) fn plot(plot: &Plot) -> Result<Canvas, ReportError> {
         draw_area(&mut canvas, &frame, series, *color);
     }
     reference::draw_lines(&mut canvas, &references);
-    for (series, color) in series.iter().filter(|(s, _)| !area(s)) {
-        draw_series(&mut canvas, &frame, series, *color);
-    }
-    frame.axes(&mut canvas, &plot.title, &plot.x, &plot.y);
+    // under the paths, so that the marks where they end are seen
     for [from, to] in &plot.walls {
         for piece in frame.rect.polyline([frame.point(from[0], from[1]), frame.point(to[0], to[1])]) {
             canvas.line(&piece, Stroke::new(WALL, 3.0));
         }
     }
+    for (series, color) in series.iter().filter(|(s, _)| !area(s)) {
+        draw_series(&mut canvas, &frame, series, *color);
+    }
+    frame.axes(&mut canvas, &plot.title, &plot.x, &plot.y);
     reference::draw_labels(&mut canvas, &references);
     if let Some(rect) = legend_at {
         legend::draw(&mut canvas, &series, &rect);

@@ -66,7 +66,7 @@ fn swatch(canvas: &mut Canvas, series: &Series, color: Color, at: Point) {
         Shape::Line { dash, .. } => {
             let width = series.line_width().max(1.5);
             canvas.dashed(&[[left, y], [right, y]], Stroke::new(color, width), *dash);
-        },
+        }
         Shape::Points { marker, interval, .. } => {
             if !interval.is_empty() {
                 canvas.line(&[[middle, y - 8.0], [middle, y + 8.0]], Stroke::new(color, 1.2));

@@ -189,14 +189,14 @@ impl Series {
     }
 
     /// Whether anything of it can be seen: a value that is a number.
-    pub(super) fn has_data(&self) -> bool {
-        let any = |x: &[f64], y: &[f64]| x.iter().zip(y).any(|(x, y)| x.is_finite() && y.is_finite());
+    pub(super) fn has_data(&self, log_x: bool, log_y: bool) -> bool {
+        let here = |v: f64, log: bool| v.is_finite() && (v > 0.0 || !log);
+        let both = |(x, y): (&f64, &f64)| here(*x, log_x) && here(*y, log_y);
+        let any = |x: &[f64], y: &[f64]| x.iter().zip(y).any(both);
         match &self.shape {
-            Shape::Line { x, y, .. } => {
-                x.windows(2).zip(y.windows(2)).any(|(x, y)| x.iter().chain(y).all(|v| v.is_finite()))
-            }
+            Shape::Line { x, y, .. } => x.windows(2).zip(y.windows(2)).any(|(x, y)| x.iter().zip(y).all(both)),
             Shape::Points { x, y, .. } => any(x, y),
-            Shape::Band { x, low, high } => any(x, low) && any(x, high),
+            Shape::Band { x, low, high } => any(x, low) || any(x, high),
             Shape::Bars { heights, .. } => heights.iter().any(|h| h.is_finite()),
         }
     }
