@@ -11,6 +11,7 @@ use crate::output;
 use crate::removal::{self, RemovalArgs};
 use crate::samples::SampleArgs;
 use crate::study::is_drawn;
+use crate::sweep;
 use crate::text::{Lines, number};
 use crate::warnings::{Warnings, Yielding};
 use carom::WallLaw;
@@ -130,17 +131,17 @@ fn curves(args: &Args, over: Over, case: &ImpactArgs) -> Result<(), Failure> {
         return sampled::curves(&grid, &files, &sampling);
     }
     let mut figures = Vec::with_capacity(grid.curves.len() * grid.points.len());
-    let mut titles = Vec::new();
+    let mut laws = Vec::new();
     for curve in &grid.curves {
         let law = curve.args.law.compile(false)?;
         for diameter in &grid.points {
             figures.push(Figures::new(&law.wall, *diameter)?);
         }
-        titles.push(law.description());
+        laws.push(law);
     }
     let table = || table(&grid, &figures);
     grid.show(&files, table, table, || {
-        let title = if grid.curves.len() == 1 { titles.concat() } else { String::new() };
+        let title = sweep::title(&grid, &laws);
         let capture: Vec<f64> = figures.iter().map(|f| f.capture_velocity.unwrap_or(f64::NAN)).collect();
         grid.draw(Plot::new(title, grid.axis(), Axis::new("capture velocity", "m/s").log()), &capture)
     })

@@ -248,9 +248,19 @@ impl Grid<'_> {
 
     /// A line for each curve: colour by the first `--by`, dashes by the second.
     pub fn draw(&self, plot: Plot, values: &[f64]) -> Plot {
-        let lines = self.curves.iter().zip(values.chunks(self.points.len()));
-        lines.fold(plot, |plot, (curve, y)| {
-            let mut line = Series::line(self.label(curve), self.points.iter().copied(), y.iter().copied());
+        self.draw_with(plot, values, &[])
+    }
+
+    /// As [`Grid::draw`], with points of its own for each curve, (x, y), where a line turns between those of the grid.
+    pub fn draw_with(&self, plot: Plot, values: &[f64], more: &[Vec<[f64; 2]>]) -> Plot {
+        let lines = self.curves.iter().zip(values.chunks(self.points.len())).enumerate();
+        lines.fold(plot, |plot, (number, (curve, y))| {
+            let mut points: Vec<[f64; 2]> = self.points.iter().zip(y).map(|(x, y)| [*x, *y]).collect();
+            points.extend(
+                more.get(number).into_iter().flatten().filter(|p| p[0] > self.over.from && p[0] < self.over.to),
+            );
+            points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+            let mut line = Series::line(self.label(curve), points.iter().map(|p| p[0]), points.iter().map(|p| p[1]));
             if let [color, dash, ..] = curve.places[..] {
                 line = line.color(Color::cycle(color)).dash([Dash::Solid, Dash::Dashed, Dash::Dotted][dash % 3]);
             }
@@ -266,8 +276,9 @@ impl Grid<'_> {
             let alone = self.curves.len() == 1;
             let [line, band] = if alone { names.map(str::to_owned) } else { [self.label(curve), String::new()] };
             let x = || self.points.iter().copied();
+            let dash = [Dash::Solid, Dash::Dashed, Dash::Dotted][number / Color::PALETTE.len() % 3];
             plot.with(Series::band(band, x(), rows.iter().map(|r| r.1), rows.iter().map(|r| r.2)).color(color))
-                .with(Series::line(line, x(), rows.iter().map(|r| r.0)).color(color))
+                .with(Series::line(line, x(), rows.iter().map(|r| r.0)).color(color).dash(dash))
         })
     }
 

@@ -1,7 +1,8 @@
 //! `carom merge`: the shards of a run put together.
 
 use crate::failure::{Failure, say};
-use crate::{output, report, run};
+use crate::report::{self, Made};
+use crate::{output, run};
 use std::path::PathBuf;
 
 const EXAMPLE: &str = "\
@@ -37,7 +38,8 @@ pub struct Args {
 pub fn merge(args: &Args) -> Result<(), Failure> {
     run::check_folder(&args.out)?;
     let (summary, about) = carom_track::merge(&args.shards, &args.out, args.force).map_err(run::failed)?;
-    report::write(&about, &summary, &args.out, !args.no_report)?;
+    let made = (!args.no_report).then(|| Made::now(None));
+    report::write(&about, &summary, &args.out, made.as_ref())?;
     say(&format!("wrote {}", args.out.display()));
     output::print(&if args.json { run::json(&summary)? } else { run::tell(&summary)? })
 }

@@ -67,7 +67,17 @@ impl<'a> Files<'a> {
         table: impl FnOnce() -> Result<Table, Failure>,
         plot: impl FnOnce() -> Plot,
     ) -> Result<(), Failure> {
-        self.write_drawn(table, |path| plot().write(path))
+        // a frame without a curve tells nobody anything
+        let plot = self.plot.map(|path| (path, plot()));
+        if let Some((path, _)) = plot.as_ref().filter(|(_, plot)| plot.is_empty()) {
+            return Err(Failure::input(format!(
+                "{}: not written, for it would be empty: no point has a value that its axes can show. What is captured has \
+                 no rebound, head-on impacts have no tangential restitution or impulse ratio (give --angle or --spin), and 0 has \
+                 no place on a logarithmic axis",
+                path.display()
+            )));
+        }
+        self.write_drawn(table, |path| plot.map_or(Ok(()), |(_, plot)| plot.write(path)))
     }
 
     /// Likewise, with what draws the picture.

@@ -4,6 +4,7 @@
 
 mod bins;
 mod figures;
+mod made;
 mod tally;
 mod what;
 
@@ -13,6 +14,7 @@ use carom::validity::CODES;
 use carom_report::{Column, Report, Table, significant};
 use carom_track::record::Fate;
 use carom_track::{About, Summary};
+pub use made::Made;
 use std::path::Path;
 use tally::{Ends, Impacts, MECHANISMS};
 
@@ -21,18 +23,19 @@ pub const FILE: &str = "report.html";
 const PICTURE: &str = "trajectories.svg";
 
 /// What is made of a finished run besides its tables: the picture of its paths and, if wanted, the report.
-pub fn write(about: &About, summary: &Summary, folder: &Path, report: bool) -> Result<(), Failure> {
+pub fn write(about: &About, summary: &Summary, folder: &Path, report: Option<&Made>) -> Result<(), Failure> {
     let picture = trajectories::picture(about, folder)?;
     match &picture {
         Some((plot, _)) => plot.write(folder.join(PICTURE))?,
         None => clear(folder, PICTURE),
     }
-    if !report {
+    let Some(made) = report else {
         clear(folder, FILE);
         return Ok(());
-    }
+    };
     let title = if about.title.is_empty() { "A run of carom" } else { &about.title };
     let mut page = Report::new(title);
+    page.made(&made.to_string());
     what::section(&mut page, about)?;
     fates(&mut page, summary)?;
     if let Some((mut plot, caption)) = picture {
@@ -103,12 +106,18 @@ fn fates(page: &mut Report, summary: &Summary) -> Result<(), Failure> {
         Column::count("impacts", walls.iter().map(|w| w.impacts)),
         Column::count("rebounds", walls.iter().map(|w| w.rebounds)),
     ];
-    for fate in rows.into_iter().filter(|f| *f != Fate::Airborne) {
+    // two tables: counts and masses side by side are wider than a page
+    let mut amounts = vec![Column::text("wall", walls.iter().map(|w| w.name.as_str()))];
+    let at_walls = |f: &Fate| walls.iter().any(|w| w.ends[*f as usize].count > 0);
+    for fate in rows.into_iter().filter(at_walls) {
         columns.push(Column::count(fate.name(), walls.iter().map(|w| w.ends[fate as usize].count)));
         let masses = walls.iter().map(|w| w.ends[fate as usize].mass.value());
-        columns.push(Column::float(format!("{} mass", fate.name()), "kg", masses));
+        amounts.push(Column::float(fate.name(), "kg", masses));
     }
     page.table(&Table::new(columns)?, "What happened at each wall.");
+    if amounts.len() > 1 {
+        page.table(&Table::new(amounts)?, "The mass that ended at each wall.");
+    }
     doubts(page, summary)
 }
 
@@ -194,7 +203,7 @@ fn distributions(page: &mut Report, impacts: &Impacts, summary: &Summary) -> Res
     page.section("Impacts");
     let (walls, more) = some_walls(summary, |w| impacts.walls[w].impacts > 0.0);
     if walls.is_empty() {
-        page.paragraph("No particle met a wall.");
+        page.paragraph("No particle met a wall that bounces or keeps it.");
         return Ok(());
     }
     let all = summary.walls.iter().map(|w| w.impacts).sum();
@@ -216,7 +225,8 @@ fn energy(page: &mut Report, impacts: &Impacts, summary: &Summary) {
         if !begun {
             page.section("Energy").paragraph(
                 "Where the kinetic energy of the impacts went: each impact counts with its energy relative to the wall, \
-                 translation and spin, and a parcel with all its particles.",
+                 translation and spin, and a parcel with all its particles. A sphere that bounces many times counts many times, so \
+                 that most of the energy may seem kept where every sphere is slow in the end.",
             );
             begun = true;
         }

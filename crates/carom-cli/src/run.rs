@@ -2,13 +2,15 @@
 
 use crate::failure::{Failure, of_file, say};
 use crate::law::MaterialsArgs;
-use crate::{output, report};
+use crate::output;
+use crate::report::{self, Made};
 use carom_report::{Column, Table};
 use carom_track::record::Fate;
 use carom_track::{About, Case, Progress, RunError, RunOptions, Shard, Summary};
 use indicatif::{HumanCount, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
 const EXAMPLE: &str = "\
 Examples:
@@ -81,11 +83,14 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     };
     tell_on_interrupt(args);
     let bar = Bar::new();
+    let start = Instant::now();
     let summary = carom_track::run(&case, &options, &bar);
+    let took = start.elapsed();
     bar.0.finish_and_clear();
     let summary = summary.map_err(failed)?;
     if let Some(folder) = &args.out {
-        report::write(&About::of(&case), &summary, folder, !args.no_report && args.shard.is_none())?;
+        let made = (!args.no_report && args.shard.is_none()).then(|| Made::now(Some(took)));
+        report::write(&About::of(&case), &summary, folder, made.as_ref())?;
         say(&format!("wrote {}", folder.display()));
     }
     output::print(&if args.json { json(&summary)? } else { tell(&summary)? })

@@ -203,7 +203,7 @@ fn short(grid: &Grid, met: &[Met], oblique: bool) -> Result<Table, Failure> {
 fn plot(grid: &Grid, met: &[Met], laws: &[Law], shown: Shown, figure: Figure) -> Plot {
     let values: Vec<f64> = met.iter().map(|m| figure.of(m)).collect();
     let axis = shown.axis(values.iter().copied().fold(0.0, f64::max));
-    let plot = grid.draw(Plot::new(title(grid, laws), grid.axis(), axis), &values);
+    let plot = grid.draw_with(Plot::new(title(grid, laws), grid.axis(), axis), &values, &turns(grid, laws, figure));
     references(grid, laws, shown).into_iter().fold(plot, Plot::reference)
 }
 
@@ -244,8 +244,31 @@ fn sampled_plot(grid: &Grid, study: &Study, shown: Shown) -> Plot {
     plot
 }
 
+/// Points of each curve over speed where its line turns: just below and above capture and yield, and up the steep rise.
+fn turns(grid: &Grid, laws: &[Law], figure: Figure) -> Vec<Vec<[f64; 2]>> {
+    const BESIDE: [f64; 7] = [1.0 - 1e-9, 1.0 + 1e-9, 1.0 + 1e-4, 1.0 + 1e-3, 1.004, 1.01, 1.03];
+    if grid.quantity() != Swept::Speed {
+        return Vec::new();
+    }
+    let of = |(curve, law): (&Curve, &Law)| -> Option<Vec<[f64; 2]>> {
+        let diameter = curve.args.motion.diameter.as_ref().and_then(Given::one)?;
+        let window = law.wall.window(diameter, None).ok().flatten();
+        let ends = window.map(|w| [w.capture_velocity, w.exhausted_velocity]);
+        let yielding = law.wall.yield_velocity(diameter, None).ok().flatten();
+        let normal = curve.at(Swept::Speed, 1.0).complete().ok()?.components().0;
+        let speeds = ends.into_iter().flatten().chain(yielding).map(|v| v / normal);
+        let near = speeds.filter(|v| v.is_finite() && *v > 0.0).flat_map(|v| BESIDE.map(|b| v * b));
+        let met = near.filter_map(|speed| {
+            let met = curve.at(Swept::Speed, speed).complete().ok()?.meet(&law.wall).ok()?;
+            Some([speed, figure.of(&met)])
+        });
+        Some(met.collect())
+    };
+    grid.curves.iter().zip(laws).map(|both| of(both).unwrap_or_default()).collect()
+}
+
 /// What all curves have in common.
-fn title(grid: &Grid, laws: &[Law]) -> String {
+pub fn title(grid: &Grid, laws: &[Law]) -> String {
     let (Some(law), Some(curve)) = (laws.first(), grid.curves.first()) else { return String::new() };
     let motion = &curve.args.motion;
     let mut parts = Vec::new();

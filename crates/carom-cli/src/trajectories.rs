@@ -1,15 +1,19 @@
-//! The picture of a run: paths seen along z, with the walls that stand on edge.
+//! The picture of a run: paths seen along z, how they end, and the walls.
+
+mod ends;
+mod walls;
 
 use crate::failure::{Failure, of_file};
-use carom_report::plot::Legend;
+use carom_report::plot::{Legend, Marker};
 use carom_report::{Axis, Color, Plot, RowReader, Series};
 use carom_track::About;
-use carom_track::about::AboutPlane;
+use carom_track::record::Fate;
 use std::borrow::Cow;
 use std::path::Path;
 use std::str::FromStr;
 
 /// One particle's path.
+#[derive(Debug)]
 struct Line {
     particle: u64,
     x: Vec<f64>,
@@ -69,9 +73,11 @@ pub fn picture(about: &About, folder: &Path) -> Result<Option<(Plot, String)>, F
     let recorded = about.trajectories;
     let lines = read(&table, recorded)?;
     let Some((low, high)) = extent(&lines) else { return Ok(None) };
-    let mut plot = plot(about, &lines, low, high);
+    let ends = ends::of(folder, &lines)?;
+    let mut plot = plot(about, &lines, &ends, low, high);
     if recorded <= DRAWN {
-        return Ok(Some((plot, "Paths of the first particles, seen along z.".to_owned())));
+        let whose = if about.injections.len() > 1 { " of each injection" } else { "" };
+        return Ok(Some((plot, format!("Paths of the first particles{whose}, seen along z."))));
     }
     let few = format!("{DRAWN} of {recorded} recorded paths");
     plot.title = if plot.title.is_empty() { few.clone() } else { format!("{}: {few}", plot.title) };
@@ -79,10 +85,10 @@ pub fn picture(about: &About, folder: &Path) -> Result<Option<(Plot, String)>, F
     Ok(Some((plot, format!("{few}, chosen evenly by particle number, {rest}"))))
 }
 
-/// Whether a particle's path is drawn: all are while they are few, else ones evenly spaced.
-fn drawn(particle: u64, recorded: u64) -> bool {
+/// Whether the path with that place among the recorded ones is drawn: all are while they are few, else ones evenly spaced.
+fn drawn(place: u64, recorded: u64) -> bool {
     let step = |n: u64| u128::from(n) * u128::from(DRAWN) / u128::from(recorded.max(1));
-    recorded <= DRAWN || particle == 0 || step(particle) != step(particle - 1)
+    recorded <= DRAWN || place == 0 || step(place) != step(place - 1)
 }
 
 fn read(table: &Path, recorded: u64) -> Result<Vec<Line>, Failure> {
@@ -91,10 +97,15 @@ fn read(table: &Path, recorded: u64) -> Result<Vec<Line>, Failure> {
     let mut lines: Vec<Line> = Vec::new();
     // the header
     rows.next_row().map_err(|e| of_file(&name, &e))?;
+    let (mut before, mut place) = (None, 0);
     while let Some(row) = rows.next_row().map_err(|e| of_file(&name, &e))? {
         let mut fields = row.fields();
-        let particle = number(fields.next());
-        if particle.is_some_and(|p| !drawn(p, recorded)) {
+        let particle: Option<u64> = number(fields.next());
+        if before.is_some() && before != particle {
+            place += 1;
+        }
+        before = particle;
+        if particle.is_some() && !drawn(place, recorded) {
             continue;
         }
         let point = (particle, number(fields.nth(1)), number(fields.next()));
@@ -127,16 +138,20 @@ fn extent(lines: &[Line]) -> Option<([f64; 2], [f64; 2])> {
     (x.0 <= x.1 && y.0 <= y.1).then_some(([x.0, y.0], [x.1, y.1]))
 }
 
-fn plot(about: &About, lines: &[Line], low: [f64; 2], high: [f64; 2]) -> Plot {
-    let (low, high) = with_walls(about, low, high);
-    let [width, height] = [high[0] - low[0], high[1] - low[1]];
-    // one unit for both axes
-    let (unit, factor) = match width.max(height) {
+fn plot(about: &About, lines: &[Line], ends: &[(Fate, [f64; 2])], low: [f64; 2], high: [f64; 2]) -> Plot {
+    let (low, high) = walls::with_walls(about, low, high);
+    let spans = [0, 1].map(|axis| high[axis] - low[axis]);
+    // one unit for both: they are compared by eye
+    let (unit, factor) = match spans[0].max(spans[1]) {
         s if s < 1e-3 => ("µm", 1e6),
         s if s < 1.0 => ("mm", 1e3),
         _ => ("m", 1.0),
     };
-    let mut plot = Plot::new(&about.title, Axis::scaled("x", unit, factor), Axis::scaled("y", unit, factor));
+    let axis = |n: usize, label: &str| {
+        let air = 0.04 * spans[n];
+        Axis::scaled(label, unit, factor).range(low[n] - air, high[n] + air)
+    };
+    let mut plot = Plot::new(&about.title, axis(0, "x"), axis(1, "y"));
     let mut named = Vec::new();
     for line in lines {
         let injection = about.injection(line.particle).unwrap_or(0);
@@ -145,66 +160,39 @@ fn plot(about: &About, lines: &[Line], low: [f64; 2], high: [f64; 2]) -> Plot {
             _ => String::new(),
         };
         named.push(injection);
-        plot = plot
-            .with(Series::line(label, line.x.iter().copied(), line.y.iter().copied()).color(Color::cycle(injection)));
+        let path = Series::line(label, line.x.iter().copied(), line.y.iter().copied()).color(Color::cycle(injection));
+        plot = plot.with(if lines.len() > FEW { path.thin() } else { path });
     }
-    for plane in &about.planes {
-        if let Some([from, to]) = edge(plane, low, high) {
-            plot = plot.wall(from, to);
+    for fate in Fate::ALL {
+        let here = || ends.iter().filter(move |(f, _)| *f == fate).map(|(_, at)| *at);
+        if here().next().is_some() {
+            let (marker, color) = mark(fate);
+            let points = Series::points(fate.name(), here().map(|p| p[0]), here().map(|p| p[1]));
+            plot = plot.with(points.marker(marker).color(color));
         }
     }
-    if width < 8.0 * height && height < 8.0 * width {
+    for [from, to] in walls::lines(about, low, high) {
+        plot = plot.wall(from, to);
+    }
+    if spans[0] < 8.0 * spans[1] && spans[1] < 8.0 * spans[0] {
         plot = plot.equal_aspect();
     }
     plot.legend(Legend::Outside)
 }
 
-/// The corners with the walls beside the paths that lie nearly across an axis, and never a span of zero.
-fn with_walls(about: &About, mut low: [f64; 2], mut high: [f64; 2]) -> ([f64; 2], [f64; 2]) {
-    let spans = [high[0] - low[0], high[1] - low[1]];
-    for plane in &about.planes {
-        for axis in 0..2 {
-            let (at, near) = (plane.point[axis], 0.5 * spans[axis]);
-            if plane.normal[axis].abs() > 0.999 && at > low[axis] - near && at < high[axis] + near {
-                low[axis] = low[axis].min(at);
-                high[axis] = high[axis].max(at);
-            }
-        }
-    }
-    for axis in 0..2 {
-        if high[axis] <= low[axis] {
-            let margin = 0.5 * spans[1 - axis].max(1e-6);
-            low[axis] -= margin;
-            high[axis] += margin;
-        }
-    }
-    (low, high)
-}
+/// Paths up to so many are drawn as lines of full width.
+const FEW: usize = 8;
 
-/// The part of a plane's trace within the corners; none for a plane that does not stand on edge.
-fn edge(plane: &AboutPlane, low: [f64; 2], high: [f64; 2]) -> Option<[[f64; 2]; 2]> {
-    let [nx, ny, nz] = plane.normal;
-    if nz.abs() > 1e-9 {
-        return None;
+/// The mark where a path ends.
+fn mark(fate: Fate) -> (Marker, Color) {
+    match fate {
+        Fate::Captured => (Marker::Circle, Color::BLACK),
+        Fate::Settled => (Marker::Circle, Color::GREY),
+        Fate::Trapped => (Marker::Square, Color::BLACK),
+        Fate::Escaped => (Marker::Triangle, Color::BLACK),
+        Fate::Airborne => (Marker::Cross, Color::GREY),
+        _ => (Marker::Cross, Color::BLACK),
     }
-    let along = [-ny, nx];
-    let (mut from, mut to) = (f64::NEG_INFINITY, f64::INFINITY);
-    for axis in 0..2 {
-        // a hair of slack: a wall on the very edge is within
-        let slack = 1e-9 * (high[axis] - low[axis]);
-        let [a, b] = [low[axis] - slack - plane.point[axis], high[axis] + slack - plane.point[axis]];
-        if along[axis].abs() < 1e-12 {
-            if a > 0.0 || b < 0.0 {
-                return None;
-            }
-            continue;
-        }
-        let [s, t] = [a / along[axis], b / along[axis]];
-        from = from.max(s.min(t));
-        to = to.min(s.max(t));
-    }
-    let at = |s: f64| [plane.point[0] + s * along[0], plane.point[1] + s * along[1]];
-    (from < to && from.is_finite() && to.is_finite()).then(|| [at(from), at(to)])
 }
 
 #[cfg(test)]
@@ -225,18 +213,5 @@ mod tests {
         assert!(line.x.len() <= POINTS + 1 && line.x.len() > POINTS / 2);
         assert_eq!([line.x[0], line.x[1], line.x[2]], [0.0, 128.0, 256.0]);
         assert_eq!(line.y.last(), Some(&-1_000_002.0));
-    }
-
-    #[test]
-    fn a_wall_is_cut_to_the_picture() {
-        let name = String::new();
-        let floor = AboutPlane { name, point: [5.0, 0.0, 0.0], normal: [0.0, 1.0, 0.0] };
-        let mut ends = edge(&floor, [0.0, 0.0], [1.0, 2.0]).expect("it stands on edge");
-        ends.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        assert!(ends[0][0].abs() < 1e-8 && (ends[1][0] - 1.0).abs() < 1e-8 && ends[0][1] == 0.0);
-        let far = AboutPlane { point: [0.0, -3.0, 0.0], ..floor.clone() };
-        assert_eq!(edge(&far, [0.0, 0.0], [1.0, 2.0]), None);
-        let facing = AboutPlane { point: [0.0; 3], normal: [0.0, 0.0, 1.0], ..floor };
-        assert_eq!(edge(&facing, [0.0, 0.0], [1.0, 2.0]), None);
     }
 }

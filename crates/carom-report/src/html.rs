@@ -60,6 +60,12 @@ impl Report {
         self.block("p", text)
     }
 
+    /// A small line of how and when the report was made, in plain text.
+    pub fn made(&mut self, text: &str) -> &mut Self {
+        let _ = writeln!(self.body, "<p class=\"made\">{}</p>", escape(text));
+        self
+    }
+
     /// Text shown as it is, in a fixed-width font: a law or case file.
     pub fn preformatted(&mut self, text: &str) -> &mut Self {
         self.block("pre", text)

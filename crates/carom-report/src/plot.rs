@@ -24,6 +24,7 @@ use crate::ReportError;
 use canvas::Canvas;
 use carom_table::{TableError, file};
 
+mod apart;
 mod axis;
 mod canvas;
 mod clip;
@@ -143,6 +144,13 @@ impl Plot {
     pub fn equal_aspect(mut self) -> Self {
         self.equal_aspect = true;
         self
+    }
+
+    /// Whether no series has a value that can be drawn: only a frame would be seen.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        let [x, y] = [&self.x, &self.y].map(|axis| axis.scale == Scale::Log);
+        !self.series.iter().any(|series| series.has_data(x, y))
     }
 
     /// The plot as an SVG document.

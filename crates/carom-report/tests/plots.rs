@@ -318,3 +318,63 @@ fn report_escapes_text_and_asks_for_nothing_outside() {
     let error = report.write("report.htm").unwrap_err().to_string();
     assert!(error.ends_with("known are .html"), "{error}");
 }
+
+/// The strokes of the lines that are not grid, frame or ticks: colour, width and dashes of each.
+fn strokes(svg: &str, width: &str) -> Vec<String> {
+    let lines = svg.lines().filter(|l| l.starts_with("<polyline") && l.contains(width));
+    lines.filter_map(|l| l.split_once(" points")).map(|(l, _)| l.to_owned()).collect()
+}
+
+#[test]
+fn more_lines_than_colours_are_told_apart() {
+    let plot = (0..15).fold(Plot::new("", Axis::new("x", ""), Axis::new("y", "")), |plot, i| {
+        plot.with(Series::line(format!("{i}"), [0.0, 1.0], [f64::from(i), f64::from(i) + 1.0]))
+    });
+    let mut looks = strokes(&plot.clone().legend(Legend::Hidden).svg().unwrap(), "stroke-width=\"20\"");
+    assert_eq!(looks.len(), 15);
+    looks.sort();
+    looks.dedup();
+    assert_eq!(looks.len(), 15, "{looks:?}");
+    // the legend shows what the plot does
+    let both = strokes(&plot.svg().unwrap(), "stroke-width=\"20\"");
+    assert!(looks.iter().all(|look| both.iter().filter(|b| *b == look).count() == 2));
+}
+
+#[test]
+fn of_two_lines_that_are_one_both_are_seen() {
+    let x: Vec<f64> = (1..50).map(f64::from).collect();
+    let line = |name: &str, skip: usize| {
+        let x = x.iter().copied().skip(skip).step_by(skip + 1);
+        Series::line(name, x.clone(), x.map(|x| 2.0 * x))
+    };
+    let plot = Plot::new("", Axis::new("x", ""), Axis::new("y", "")).legend(Legend::Hidden);
+    let looks = |plot: &Plot| strokes(&plot.svg().unwrap(), "stroke-width=\"20\"");
+    let same = looks(&plot.clone().with(line("a", 0)).with(line("b", 1)).with(line("c", 2)));
+    let dashes: Vec<bool> = same.iter().map(|l| l.contains("dasharray")).collect();
+    assert_eq!(dashes, [false, true, true], "{same:?}");
+    assert_ne!(same[1].split_once("dasharray"), same[2].split_once("dasharray"));
+    let apart = looks(&plot.with(line("a", 0)).with(Series::line("b", [1.0, 49.0], [98.0, 2.0])));
+    assert!(apart.iter().all(|l| !l.contains("dasharray")), "{apart:?}");
+}
+
+#[test]
+fn a_plot_without_a_number_is_empty() {
+    let plot = Plot::new("", Axis::new("x", ""), Axis::new("y", ""));
+    assert!(plot.is_empty());
+    assert!(plot.clone().with(Series::line("", [1.0, 2.0], [f64::NAN, f64::NAN])).is_empty());
+    assert!(!plot.with(Series::line("", [1.0, 2.0], [0.0, 0.0])).is_empty());
+}
+
+#[test]
+fn lengths_are_equal_in_the_data_whatever_unit_is_shown() {
+    // 2 m across in m, 1 m up in mm: the frame is twice as wide as high
+    let plot = Plot::new("", Axis::new("x", "m").range(0.0, 2.0), Axis::scaled("y", "mm", 1e3).range(0.0, 1.0))
+        .with(Series::line("", [0.0, 2.0], [0.0, 1.0]).thin())
+        .equal_aspect();
+    let svg = plot.svg().unwrap();
+    let line = svg.lines().find(|l| l.contains("stroke-width=\"9\"")).expect("the line");
+    let points = line.split_once("points=\"").expect("points").1.trim_end_matches("\"/>").trim();
+    let points: Vec<f64> = points.split([' ', ',']).map(|v| v.parse().unwrap()).collect();
+    let (width, height) = (points[2] - points[0], points[1] - points[3]);
+    assert!((width / height - 2.0).abs() < 0.01, "{width} {height}");
+}

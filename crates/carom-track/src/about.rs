@@ -2,6 +2,7 @@
 
 use crate::case::Case;
 use crate::geometry::Shape;
+use crate::outline::outline;
 use crate::vector::Vec3;
 
 /// The case of a run, as its results need it.
@@ -14,9 +15,15 @@ pub struct About {
     pub text: String,
     /// Walls that are planes.
     pub planes: Vec<AboutPlane>,
+    /// Walls that are round.
+    #[serde(default)]
+    pub cylinders: Vec<AboutCylinder>,
+    /// Walls of triangles and boxes, as they are seen along z.
+    #[serde(default)]
+    pub outlines: Vec<AboutOutline>,
     /// Edges of the size bins that were asked for, m.
     pub size_bins: Vec<f64>,
-    /// Particles whose paths are recorded, from number 0 on.
+    /// How many particles' paths are recorded: of each injection the first few.
     pub trajectories: u64,
     /// Injections, in the order of their particles' numbers.
     pub injections: Vec<AboutInjection>,
@@ -32,6 +39,30 @@ pub struct AboutPlane {
     pub point: Vec3,
     /// Its unit normal.
     pub normal: Vec3,
+}
+
+/// A wall that is a cylinder without end.
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AboutCylinder {
+    /// The wall's name.
+    pub name: String,
+    /// A point of its axis, m.
+    pub point: Vec3,
+    /// Unit direction of the axis.
+    pub axis: Vec3,
+    /// Radius, m.
+    pub radius: f64,
+}
+
+/// Lines that show a wall as it is seen along z.
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AboutOutline {
+    /// The wall's name.
+    pub name: String,
+    /// x and y of both ends of each, m.
+    pub lines: Vec<[[f64; 2]; 2]>,
 }
 
 /// An injection.
@@ -53,6 +84,23 @@ impl About {
             Shape::Plane(p) => Some(AboutPlane { name: wall.name.clone(), point: p.point, normal: p.normal }),
             _ => None,
         });
+        let cylinders = case.domain.walls().iter().filter_map(|wall| match &wall.shape {
+            Shape::Cylinder(c) => {
+                Some(AboutCylinder { name: wall.name.clone(), point: c.point, axis: c.axis, radius: c.radius })
+            }
+            _ => None,
+        });
+        let outlines = case.domain.walls().iter().filter_map(|wall| {
+            let lines = match &wall.shape {
+                Shape::Mesh(mesh) => outline(mesh),
+                Shape::Room(r) => {
+                    let corners = [[0, 0], [1, 0], [1, 1], [0, 1]].map(|c| [0, 1].map(|i| [r.min, r.max][c[i]][i]));
+                    (0..4).map(|i| [corners[i], corners[(i + 1) % 4]]).collect()
+                }
+                _ => return None,
+            };
+            Some(AboutOutline { name: wall.name.clone(), lines })
+        });
         let injections = case.injections.iter().map(|i| AboutInjection {
             name: i.name.clone(),
             count: i.injection.count(),
@@ -62,8 +110,10 @@ impl About {
             title: case.title.clone(),
             text: case.text.clone(),
             planes: planes.collect(),
+            cylinders: cylinders.collect(),
+            outlines: outlines.collect(),
             size_bins: case.bins.sizes.clone(),
-            trajectories: case.trajectories.min(case.count()),
+            trajectories: case.recorded().map(|numbers| numbers.end - numbers.start).sum(),
             injections: injections.collect(),
         }
     }

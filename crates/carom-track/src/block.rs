@@ -197,7 +197,7 @@ impl Sink for Collector<'_> {
         let mass = particle.mass();
         self.summary.start(mass);
         self.own(particle.number).mass = mass;
-        self.wants(TRAJECTORIES) && particle.number < self.recording.case.trajectories
+        self.wants(TRAJECTORIES) && self.recording.case.recorded().any(|numbers| numbers.contains(&particle.number))
     }
 
     fn impact(&mut self, impact: &ImpactRecord) {

@@ -27,6 +27,7 @@ use carom::material::{Library, Material};
 use carom::{Impact, SpecError};
 use check::{positive, wrong};
 use files::Files;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use text::{CaseText, OutputText, RunText, Si};
 
@@ -144,6 +145,21 @@ impl Case {
     /// How many particles it injects.
     pub fn count(&self) -> u64 {
         self.injections.iter().map(|i| i.injection.count()).sum()
+    }
+
+    /// The numbers of the particles whose paths are recorded: the first ones of each injection, shared out by their counts, and
+    /// one at least of each.
+    pub fn recorded(&self) -> impl Iterator<Item = Range<u64>> {
+        let (all, wanted) = (self.count(), self.trajectories.min(self.count()));
+        // rounded down up to any number, so that the shares add up
+        let share = move |number: u64| (u128::from(wanted) * u128::from(number) / u128::from(all.max(1))) as u64;
+        let mut start = 0;
+        self.injections.iter().map(move |injected| {
+            let count = injected.injection.count();
+            let from = start;
+            start += count;
+            from..from + (share(start) - share(from)).max(u64::from(wanted > 0)).min(count)
+        })
     }
 
     /// The tracker of this case.

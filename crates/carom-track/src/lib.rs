@@ -63,6 +63,7 @@ pub mod geometry;
 pub mod injection;
 pub mod integrate;
 mod lanes;
+mod outline;
 pub use carom::random;
 pub mod record;
 pub mod run;

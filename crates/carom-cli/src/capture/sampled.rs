@@ -7,7 +7,8 @@ use crate::law::Law;
 use crate::motion::ImpactArgs;
 use crate::output::{self, Files};
 use crate::samples::note;
-use crate::study::{Figure, NOTHING, Study, band_columns, drawn, fits, is_drawn};
+use crate::study::{Figure, NOTHING, Study, band_columns, fits, is_drawn};
+use crate::sweep;
 use crate::text::{Lines, percent, quantity, scaled};
 use carom::study::{Band, Given, Sampling};
 use carom_report::plot::Reference;
@@ -112,12 +113,12 @@ pub fn curves(grid: &Grid, files: &Files, sampling: &Sampling) -> Result<(), Fai
 }
 
 fn over_diameter(grid: &Grid, files: &Files, sampling: &Sampling) -> Result<(), Failure> {
-    let (mut bands, mut never, mut titles) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut bands, mut never, mut laws) = (Vec::new(), Vec::new(), Vec::new());
     for curve in &grid.curves {
         let velocities = Velocities::new(&curve.args, Some(&grid.points), sampling)?;
         bands.extend(velocities.bands);
         never.extend(velocities.never);
-        titles.push(velocities.law.description());
+        laws.push(velocities.law);
     }
     let table = || {
         let mut columns = grid.columns();
@@ -126,7 +127,7 @@ fn over_diameter(grid: &Grid, files: &Files, sampling: &Sampling) -> Result<(), 
         Ok(Table::new(columns)?)
     };
     grid.show(files, table, table, || {
-        let title = if grid.curves.len() == 1 { titles.concat() } else { String::new() };
+        let title = sweep::title(grid, &laws);
         // beyond every speed is beyond the plot
         let shown = |v: f64| if v.is_finite() { v } else { f64::NAN };
         let rows: Vec<_> = bands.iter().map(|b| (shown(b.median), shown(b.low), shown(b.high))).collect();
@@ -145,13 +146,7 @@ fn over_speed(grid: &Grid, files: &Files, sampling: &Sampling) -> Result<(), Fai
     };
     let references = references(grid, sampling)?;
     grid.show(files, table, table, || {
-        let title = match (&study.laws[..], &grid.curves[..]) {
-            ([law], [curve]) => {
-                let drawn = drawn(&curve.args).map(|(flag, d)| format!("{} {d}", flag.replace('-', " ")));
-                std::iter::once(law.description()).chain(drawn).collect::<Vec<_>>().join(", ")
-            }
-            _ => String::new(),
-        };
+        let title = sweep::title(grid, &study.laws);
         let rows: Vec<_> = study.sticking.iter().map(|s| (s.value, s.low, s.high)).collect();
         let plot = Plot::new(title, grid.axis(), Axis::new("sticking probability", "").range(0.0, 1.0));
         let plot = grid.draw_bands(plot, &rows, ["probability", "95 % confidence"]);

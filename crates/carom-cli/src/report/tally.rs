@@ -101,11 +101,16 @@ pub fn impacts(folder: &Path, about: &About, summary: &Summary) -> Result<Option
         for row in 0..batch.rows() {
             let Some(w) = wall_names[row].as_ref().and_then(|name| names.find(name)) else { continue };
             let [d, normal, along, spin, restitution, weight] = [0, 1, 2, 3, 4, 5].map(|c| columns[c][row]);
+            let fate = fates[row].as_deref();
+            // what leaves through a wall does not hit it
+            if fate == Some("escape") || (restitution.is_nan() && ends_contact(fate, normal, along)) {
+                continue;
+            }
             all.speeds.add(normal, w, weight);
             let wall = &mut all.walls[w];
             wall.impacts += weight;
             put(&mut wall.angles, normal.atan2(along).to_degrees() / ANGLE, weight);
-            if fates[row].as_deref() == Some("rebound") && !restitution.is_nan() {
+            if fate == Some("rebound") && !restitution.is_nan() {
                 // a hair more, so that 0.7 is not left below its edge by the division
                 put(&mut wall.restitutions, restitution / RESTITUTION + 1e-9, weight);
             }
@@ -121,6 +126,12 @@ pub fn impacts(folder: &Path, about: &About, summary: &Summary) -> Result<Option
         }
     }
     Ok(Some(all))
+}
+
+/// Whether a row without restitution is one where contact motion ends, which is no impact: nothing came towards the wall.
+fn ends_contact(fate: Option<&str>, normal: f64, along: f64) -> bool {
+    let ends = matches!(fate, Some("settle" | "roll-off" | "slide-off" | "lift-off"));
+    ends && normal.abs() <= 1e-9 * along.abs()
 }
 
 /// Reads the table of fates; `None` where the run recorded none.
@@ -173,15 +184,41 @@ fn grouped(mut bins: BTreeMap<i32, SizeBin>) -> Vec<SizeBin> {
     while bins.len() > SIZES {
         let mut halved: BTreeMap<i32, SizeBin> = BTreeMap::new();
         for (index, bin) in bins {
-            let sum = halved.entry(index.div_euclid(2)).or_default();
-            sum.injected += bin.injected;
-            sum.diameters += bin.diameters;
-            sum.kept.resize(bin.kept.len(), 0);
-            sum.kept.iter_mut().zip(bin.kept).for_each(|(a, b)| *a += b);
+            halved.entry(index.div_euclid(2)).or_default().join(bin);
         }
         bins = halved;
     }
-    bins.into_values().collect()
+    filled(bins.into_values())
+}
+
+/// Particles in a bin at least: of fewer, the interval about the share kept is wider than what could be read from it.
+const FEWEST: u64 = 20;
+
+/// Neighbours put together until each has particles enough, in rising order; the last takes what is left.
+fn filled(bins: impl Iterator<Item = SizeBin>) -> Vec<SizeBin> {
+    let mut full: Vec<SizeBin> = Vec::new();
+    let mut open = SizeBin::default();
+    for bin in bins {
+        open.join(bin);
+        if open.injected >= FEWEST {
+            full.push(std::mem::take(&mut open));
+        }
+    }
+    match full.last_mut() {
+        Some(last) => last.join(open),
+        None if open.injected > 0 => full.push(open),
+        None => {}
+    }
+    full
+}
+
+impl SizeBin {
+    fn join(&mut self, other: Self) {
+        self.injected += other.injected;
+        self.diameters += other.diameters;
+        self.kept.resize(self.kept.len().max(other.kept.len()), 0);
+        self.kept.iter_mut().zip(other.kept).for_each(|(a, b)| *a += b);
+    }
 }
 
 /// The table of that name, in whichever format the run wrote it.
@@ -228,5 +265,28 @@ impl<'a> Names<'a> {
             self.last = walls.iter().position(|w| w.name == name)?;
         }
         Some(self.last)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_end_of_a_contact_is_no_impact() {
+        assert!(ends_contact(Some("settle"), 0.0, 0.3) && ends_contact(Some("roll-off"), -1e-18, 0.3));
+        assert!(ends_contact(Some("lift-off"), 0.0, 0.0));
+        assert!(!ends_contact(Some("settle"), 1e-4, 0.3), "it settled by an impact");
+        assert!(!ends_contact(Some("capture"), 0.0, 0.3) && !ends_contact(None, 0.0, 0.0));
+    }
+
+    #[test]
+    fn sparse_sizes_are_put_together() {
+        let bin = |injected: u64| SizeBin { injected, diameters: injected as f64, kept: vec![injected / 2] };
+        let sizes = filled([1, 3, 30, 50, 19, 1, 2].map(bin).into_iter());
+        assert_eq!(sizes.iter().map(|s| s.injected).collect::<Vec<_>>(), [34, 50, 22]);
+        assert_eq!((sizes[0].kept[0], sizes[2].kept[0], sizes[2].diameters), (16, 10, 22.0));
+        assert_eq!(filled([bin(3)].into_iter()).len(), 1);
+        assert!(filled(std::iter::empty()).is_empty());
     }
 }

@@ -124,7 +124,7 @@ impl Canvas {
         let dashes = match dash {
             Dash::Solid => None,
             Dash::Dashed => Some([3.2 * stroke.width, 3.6 * stroke.width]),
-            Dash::Dotted => Some([0.1, 2.4 * stroke.width]),
+            Dash::Dotted => Some([0.1, 2.8 * stroke.width]),
         };
         self.elements.push(Element::Line { points: thinned(points), stroke, dashes });
     }

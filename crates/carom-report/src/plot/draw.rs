@@ -5,7 +5,7 @@ use super::clip::Rect;
 use super::frame::Frame;
 use super::occupied::Occupied;
 use super::scaled::{Margin, Scaled};
-use super::{Color, Legend, Marker, Plot, Series, Shape, legend, reference};
+use super::{Color, Legend, Marker, Plot, Series, Shape, apart, legend, reference};
 use crate::ReportError;
 
 /// Opacity of a band.
@@ -16,10 +16,10 @@ const WALL: Color = Color(70, 70, 70);
 
 pub(super) fn plot(plot: &Plot) -> Result<Canvas, ReportError> {
     plot.series.iter().try_for_each(Series::check)?;
-    let series = colored(&plot.series);
-    let legend_size = legend::size(&series).filter(|_| plot.legend != Legend::Hidden);
-
     let mut frame = frame(plot, 0.0);
+    let series = apart::styled(&plot.series, &frame);
+    let series = colored(&series);
+    let legend_size = legend::size(&series).filter(|_| plot.legend != Legend::Hidden);
     let mut taken = Occupied::new(plot, &frame);
     let mut references = reference::place(&plot.references, &frame, &taken);
     let mut legend_at = None;
@@ -44,15 +44,16 @@ pub(super) fn plot(plot: &Plot) -> Result<Canvas, ReportError> {
         draw_area(&mut canvas, &frame, series, *color);
     }
     reference::draw_lines(&mut canvas, &references);
+    // under the paths, so that the marks where they end are seen
+    for [from, to] in &plot.walls {
+        for piece in frame.rect.polyline([frame.point(from[0], from[1]), frame.point(to[0], to[1])]) {
+            canvas.line(&piece, Stroke::new(WALL, 3.0));
+        }
+    }
     for (series, color) in series.iter().filter(|(s, _)| !area(s)) {
         draw_series(&mut canvas, &frame, series, *color);
     }
     frame.axes(&mut canvas, &plot.title, &plot.x, &plot.y);
-    for [from, to] in &plot.walls {
-        for piece in frame.rect.polyline([frame.point(from[0], from[1]), frame.point(to[0], to[1])]) {
-            canvas.line(&piece, Stroke::new(WALL, 4.0));
-        }
-    }
     reference::draw_labels(&mut canvas, &references);
     if let Some(rect) = legend_at {
         legend::draw(&mut canvas, &series, &rect);
@@ -175,7 +176,7 @@ fn draw_series(canvas: &mut Canvas, frame: &Frame, series: &Series, color: Color
     match &series.shape {
         Shape::Line { x, y, dash } => {
             for piece in frame.rect.polyline(outline(frame, x, y)) {
-                canvas.dashed(&piece, Stroke::new(color, 2.0), *dash);
+                canvas.dashed(&piece, Stroke::new(color, series.line_width()), *dash);
             }
         }
         Shape::Points { x, y, interval, marker } => {

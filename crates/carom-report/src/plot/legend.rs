@@ -63,7 +63,10 @@ fn swatch(canvas: &mut Canvas, series: &Series, color: Color, at: Point) {
     let [left, y] = at;
     let (middle, right) = (left + 0.5 * SWATCH, left + SWATCH);
     match &series.shape {
-        Shape::Line { dash, .. } => canvas.dashed(&[[left, y], [right, y]], Stroke::new(color, 2.0), *dash),
+        Shape::Line { dash, .. } => {
+            let width = series.line_width().max(1.5);
+            canvas.dashed(&[[left, y], [right, y]], Stroke::new(color, width), *dash);
+        }
         Shape::Points { marker, interval, .. } => {
             if !interval.is_empty() {
                 canvas.line(&[[middle, y - 8.0], [middle, y + 8.0]], Stroke::new(color, 1.2));

@@ -107,7 +107,7 @@ impl Scaled {
         ticks.into_iter().map(|t| (place(t.value).clamp(0.0, 1.0), t)).collect()
     }
 
-    /// Length of the axis in the data's unit, for equal aspect: what is shown may be in another unit on the other axis.
+    /// Length of the axis in the data's unit, for equal aspect: axes may show different units.
     pub(super) fn span(&self) -> f64 {
         (self.high - self.low) / self.factor
     }
@@ -119,9 +119,8 @@ impl Scaled {
 
     /// Widens the axis about its middle to a length in the data's unit.
     pub(super) fn widen_to(&mut self, span: f64) {
-        let middle = 0.5 * (self.low + self.high);
-        let half = 0.5 * span * self.factor;
-        (self.low, self.high) = (middle - half, middle + half);
+        let (middle, span) = (0.5 * (self.low + self.high), span * self.factor);
+        (self.low, self.high) = (middle - 0.5 * span, middle + 0.5 * span);
     }
 }
 

@@ -79,6 +79,8 @@ pub struct Series {
     pub shape: Shape,
     /// Its colour; the palette's next when absent.
     pub color: Option<Color>,
+    /// Whether its line is thin, as one among many.
+    pub thin: bool,
 }
 
 fn collect(values: impl IntoIterator<Item = f64>) -> Vec<f64> {
@@ -87,7 +89,7 @@ fn collect(values: impl IntoIterator<Item = f64>) -> Vec<f64> {
 
 impl Series {
     fn new(label: impl Into<String>, shape: Shape) -> Self {
-        Self { label: label.into(), shape, color: None }
+        Self { label: label.into(), shape, color: None, thin: false }
     }
 
     /// A line.
@@ -128,6 +130,13 @@ impl Series {
     #[must_use]
     pub fn color(mut self, color: Color) -> Self {
         self.color = Some(color);
+        self
+    }
+
+    /// Draws the line thin: one of many paths.
+    #[must_use]
+    pub fn thin(mut self) -> Self {
+        self.thin = true;
         self
     }
 
@@ -177,6 +186,24 @@ impl Series {
             *interval = y.iter().zip(deviation).map(|(y, d)| (y - d, y + d)).collect();
         }
         self
+    }
+
+    /// Whether anything of it can be seen: a value that is a number.
+    pub(super) fn has_data(&self, log_x: bool, log_y: bool) -> bool {
+        let here = |v: f64, log: bool| v.is_finite() && (v > 0.0 || !log);
+        let both = |(x, y): (&f64, &f64)| here(*x, log_x) && here(*y, log_y);
+        let any = |x: &[f64], y: &[f64]| x.iter().zip(y).any(both);
+        match &self.shape {
+            Shape::Line { x, y, .. } => x.windows(2).zip(y.windows(2)).any(|(x, y)| x.iter().zip(y).all(both)),
+            Shape::Points { x, y, .. } => any(x, y),
+            Shape::Band { x, low, high } => any(x, low) || any(x, high),
+            Shape::Bars { heights, .. } => heights.iter().any(|h| h.is_finite()),
+        }
+    }
+
+    /// Width of its line in CSS pixels.
+    pub(super) fn line_width(&self) -> f64 {
+        if self.thin { 0.9 } else { 2.0 }
     }
 
     /// Fails where arrays that belong together differ in length.

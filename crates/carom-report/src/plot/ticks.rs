@@ -63,8 +63,8 @@ fn linear_label(value: f64, step_exponent: i32, largest: f64) -> String {
     text.replace('-', "−")
 }
 
-/// Divisions of a logarithmic axis from `low` to `high` (both positive): the powers of ten, or 1, 2, 5 times them on
-/// a short axis, are labelled; the other whole multiples are small divisions.
+/// Divisions of a logarithmic axis from `low` to `high` (both positive): the powers of ten, or 1, 2, 5 times them and
+/// more on a short axis, are labelled; the other whole multiples are small divisions.
 pub(super) fn log(low: f64, high: f64, count: usize) -> Vec<Tick> {
     if !(low > 0.0 && high > low && high.is_finite()) {
         return Vec::new();
@@ -74,7 +74,14 @@ pub(super) fn log(low: f64, high: f64, count: usize) -> Vec<Tick> {
     let stride = (decades / count.max(1) as f64).ceil().max(1.0) as i32;
     let inside = |v: f64| v >= low * (1.0 - 1e-9) && v <= high * (1.0 + 1e-9);
     let whole = (first..=last).filter(|e| inside(decimal(1.0, *e))).count();
-    let labelled: &[i32] = if whole < 3 && decades < 2.0 { &[1, 2, 5] } else { &[1] };
+    // the fewest digits that label three divisions
+    let choices: [&[i32]; 4] = [&[1], &[1, 2, 5], &[1, 2, 3, 5], &[1, 2, 3, 4, 5, 6, 8]];
+    let choices = if whole < 3 && decades < 2.0 { &choices[1..] } else { &choices[..1] };
+    let enough = |digits: &&&[i32]| {
+        let exponents = || (first..=last).flat_map(|e| digits.iter().map(move |d| decimal(f64::from(*d), e)));
+        exponents().filter(|v| inside(*v)).count() >= 3
+    };
+    let labelled = choices.iter().find(enough).or(choices.last()).copied().unwrap_or(&[1]);
     let plain = first >= -4 && last <= 5;
     let mut ticks = Vec::new();
     for exponent in first..=last {
