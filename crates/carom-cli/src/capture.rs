@@ -100,7 +100,7 @@ fn one(args: &Args, case: &ImpactArgs) -> Result<(), Failure> {
         removal.tell(&mut lines);
     }
     warnings.tell(&mut lines);
-    output::print(&format!("{}\n\n{lines}", law.heading(diameter)))
+    output::print(&format!("{}\n\n{lines}", warnings.first_line(&law, diameter)))
 }
 
 fn curves(args: &Args, over: Over, case: &ImpactArgs) -> Result<(), Failure> {

@@ -142,7 +142,8 @@ fn warnings(law: &Law, motion: &Motion, met: &Met) -> Warnings {
 
 /// The answer in a few lines.
 fn tell(answer: &Answer, law: &Law, motion: &Motion, met: &Met) -> String {
-    let mut text = format!("{}\n\n", law.heading(motion.diameter));
+    let warnings = warnings(law, motion, met);
+    let mut text = format!("{}\n\n", warnings.first_line(law, motion.diameter));
     let verdict = if met.rebounds() { "It rebounds" } else { "It is captured" };
     let _ = writeln!(text, "{verdict}: restitution {}\n", number(answer.restitution));
     text += &before_and_after(answer, motion, met);
@@ -168,7 +169,7 @@ fn tell(answer: &Answer, law: &Law, motion: &Motion, met: &Met) -> String {
         lines.add("rough", format!("roughness angle {angle}: this is the impact on the median facet; e and the angles are against the mean wall"));
     }
     lines.add("energy", shares(met));
-    warnings(law, motion, met).tell(&mut lines);
+    warnings.tell(&mut lines);
     text + &lines.to_string()
 }
 
