@@ -26,7 +26,7 @@ Examples:
 
 At and below the capture velocity (normal to the wall) the sphere sticks.";
 
-/// The window of rebound: capture velocity, yield velocity, Tabor's parameter, for one diameter or a range
+/// Compute the capture velocity, yield velocity and Tabor's parameter, for one diameter or a range
 #[derive(clap::Args)]
 #[command(after_long_help = EXAMPLE)]
 pub struct Args {
@@ -100,7 +100,7 @@ fn one(args: &Args, case: &ImpactArgs) -> Result<(), Failure> {
         removal.tell(&mut lines);
     }
     warnings.tell(&mut lines);
-    output::print(&format!("{}\n\n{lines}", warnings.first_line(&law, diameter)))
+    output::print(&format!("{}\n\n{lines}", law.heading(diameter)))
 }
 
 fn curves(args: &Args, over: Over, case: &ImpactArgs) -> Result<(), Failure> {

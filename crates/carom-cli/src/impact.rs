@@ -19,7 +19,7 @@ Examples:
 
 Quantities take a unit (90um, 2m/s, 190GPa) or are SI numbers; angles are degrees from the surface.";
 
-/// One impact: does the sphere stick or bounce, how fast, at what angle, with what spin
+/// Compute one impact: capture or rebound, with the speed, angle and spin after the rebound
 #[derive(clap::Args)]
 #[command(after_long_help = EXAMPLE)]
 pub struct Args {
@@ -142,8 +142,7 @@ fn warnings(law: &Law, motion: &Motion, met: &Met) -> Warnings {
 
 /// The answer in a few lines.
 fn tell(answer: &Answer, law: &Law, motion: &Motion, met: &Met) -> String {
-    let warnings = warnings(law, motion, met);
-    let mut text = format!("{}\n\n", warnings.first_line(law, motion.diameter));
+    let mut text = format!("{}\n\n", law.heading(motion.diameter));
     let verdict = if met.rebounds() { "It rebounds" } else { "It is captured" };
     let _ = writeln!(text, "{verdict}: restitution {}\n", number(answer.restitution));
     text += &before_and_after(answer, motion, met);
@@ -169,7 +168,7 @@ fn tell(answer: &Answer, law: &Law, motion: &Motion, met: &Met) -> String {
         lines.add("rough", format!("roughness angle {angle}: this is the impact on the median facet; e and the angles are against the mean wall"));
     }
     lines.add("energy", shares(met));
-    warnings.tell(&mut lines);
+    warnings(law, motion, met).tell(&mut lines);
     text + &lines.to_string()
 }
 

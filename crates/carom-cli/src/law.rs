@@ -96,8 +96,7 @@ impl Population<'_> {
     /// The law with every distribution at its median.
     pub fn middle(&self) -> Result<Law, Failure> {
         let spec = self.spec(|_| 0.5);
-        let is_named = self.args.wall_law.is_some() || self.args.given.contains_key(&Key::Normal);
-        Ok(Law { wall: self.compile(&spec)?, spec, has_friction: self.has_friction, is_named })
+        Ok(Law { wall: self.compile(&spec)?, spec, has_friction: self.has_friction })
     }
 
     /// The law where a flag's distribution, by its number from 1 on, is at the probability `draw` gives.
@@ -133,8 +132,6 @@ pub struct Law {
     pub spec: LawSpec,
     /// Was a friction coefficient given?
     pub has_friction: bool,
-    /// Was the normal law named, by `--law` or in a file? `ea` stands in where it was not.
-    pub is_named: bool,
 }
 
 /// The file a law came from: its name and text.

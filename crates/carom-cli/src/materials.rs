@@ -24,11 +24,11 @@ A file of your own holds tables such as
   yield_strength = \"310 MPa\"
   hardness = \"1.3 GPa\"";
 
-/// The materials known, or one of them with every value, range and source
+/// List the materials, or show one with every value, range and source
 #[derive(clap::Args)]
 #[command(after_long_help = EXAMPLE)]
 pub struct Args {
-    /// A material's name or alias; all are listed without it
+    /// A material's name or alias; without it all are listed
     name: Option<String>,
     #[command(flatten)]
     materials: MaterialsArgs,

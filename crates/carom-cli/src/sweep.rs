@@ -29,7 +29,7 @@ scatters (--roughness-angle).
 
 The table goes to standard output unless a file is asked for with --out or --plot.";
 
-/// Many impacts along a range of speeds, diameters or angles: a table, a plot
+/// Compute impacts over a range of speeds, diameters or angles, as a table or plot
 #[derive(clap::Args)]
 #[command(after_long_help = EXAMPLE)]
 pub struct Args {

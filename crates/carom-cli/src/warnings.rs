@@ -1,7 +1,6 @@
 //! What to mind about one answer: a line a code, with the numbers where there are some.
 
 use crate::failure::Failure;
-use crate::law::Law;
 use crate::text::Lines;
 use carom::validity::CODES;
 use carom::{AboveYield, Impact, Validity, WallLaw};
@@ -52,15 +51,6 @@ impl Warnings {
             restitution: a.restitution,
             capture_velocity: a.capture_velocity,
         })
-    }
-
-    /// Where no law was named and `eap` would answer otherwise, says so, for the first line of an answer.
-    pub fn first_line(&self, law: &Law, diameter: f64) -> String {
-        let heading = law.heading(diameter);
-        match &self.above_yield {
-            Some(numbers) if !law.is_named => format!("{heading} (no --law given; {})", numbers.with_plastic_loss()),
-            _ => heading,
-        }
     }
 
     /// Adds a line for each.

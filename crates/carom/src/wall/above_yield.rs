@@ -46,31 +46,11 @@ impl fmt::Display for AboveYield {
             "the yield velocity is {} m/s ({source}; small, fast contacts are stronger)",
             rounded(self.yield_velocity)
         )?;
-        write!(f, ", and {}", self.with_plastic_loss())
-    }
-}
-
-impl AboveYield {
-    /// What law `eap` gives instead, such as `eap would give e = 0.604`.
-    pub fn with_plastic_loss(&self) -> impl fmt::Display {
-        Instead { speed: self.speed, restitution: self.restitution, capture_velocity: self.capture_velocity }
-    }
-}
-
-/// The words of [`AboveYield::with_plastic_loss`].
-struct Instead {
-    speed: f64,
-    restitution: f64,
-    capture_velocity: Option<f64>,
-}
-
-impl fmt::Display for Instead {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.capture_velocity {
-            _ if self.restitution > 0.0 => write!(f, "eap would give e = {}", rounded(self.restitution)),
-            Some(v) if v < self.speed => f.write_str("eap leaves nothing either"),
-            Some(v) => write!(f, "eap would capture up to {} m/s", rounded(v)),
-            None => f.write_str("eap would capture at every speed"),
+            _ if self.restitution > 0.0 => write!(f, ", and eap would give e = {}", rounded(self.restitution)),
+            Some(v) if v < self.speed => f.write_str(", and eap leaves nothing either"),
+            Some(v) => write!(f, ", and eap would capture up to {} m/s", rounded(v)),
+            None => f.write_str(", and eap would capture at every speed"),
         }
     }
 }
