@@ -11,8 +11,9 @@ use crate::output;
 use crate::removal::{self, RemovalArgs};
 use crate::samples::SampleArgs;
 use crate::study::is_drawn;
-use crate::text::Lines;
+use crate::text::{Lines, number};
 use crate::warnings::{Warnings, Yielding};
+use carom::WallLaw;
 use carom::study::Given;
 use carom_report::{Axis, Column, Plot, Table};
 
@@ -100,7 +101,15 @@ fn one(args: &Args, case: &ImpactArgs) -> Result<(), Failure> {
         removal.tell(&mut lines);
     }
     warnings.tell(&mut lines);
-    output::print(&format!("{}\n\n{lines}", law.heading(diameter)))
+    let plastic = |eap: &WallLaw| {
+        let window = eap.window(diameter, None).ok()?;
+        Some(
+            window
+                .map_or("no rebound".to_owned(), |w| format!("{} m/s as capture velocity", number(w.capture_velocity))),
+        )
+    };
+    let default = law.by_default(plastic);
+    output::print(&format!("{}{default}\n\n{lines}", law.heading(diameter)))
 }
 
 fn curves(args: &Args, over: Over, case: &ImpactArgs) -> Result<(), Failure> {

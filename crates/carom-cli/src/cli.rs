@@ -1,7 +1,8 @@
 //! The command line as a whole.
 
 use crate::failure::Failure;
-use crate::{capture, export, fit, impact, materials, merge, run, sweep, validate};
+use crate::{capture, export, fit, impact, materials, merge, run, shell, sweep, validate};
+use clap::builder::styling::{AnsiColor, Styles};
 use clap::{Parser, Subcommand};
 
 const EXAMPLES: &str = "\
@@ -18,9 +19,16 @@ Examples:
 Quantities take a unit (90um, 2m/s, 190GPa) or are SI numbers. Which law: docs/which-law.md. All flags: `carom SUBCOMMAND --help`.
 Exit codes: 0 success, 2 invalid input, 1 any other error.";
 
+/// On a terminal that takes colours; clap looks, and heeds NO_COLOR.
+const STYLES: Styles = Styles::styled()
+    .header(AnsiColor::Green.on_default().bold())
+    .usage(AnsiColor::Green.on_default().bold())
+    .literal(AnsiColor::Cyan.on_default().bold())
+    .placeholder(AnsiColor::Cyan.on_default());
+
 /// Impacts of small particles on walls: capture or rebound, with the speed, angle and spin after the rebound
 #[derive(Parser)]
-#[command(name = "carom", version, after_help = EXAMPLES, max_term_width = 110, subcommand_required = true)]
+#[command(name = "carom", version, after_help = EXAMPLES, max_term_width = 110, styles = STYLES, subcommand_required = true)]
 pub struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -37,6 +45,8 @@ enum Command {
     Fit(Box<fit::Args>),
     Validate(validate::Args),
     Export(Box<export::Args>),
+    Completions(shell::Completions),
+    Man(shell::Man),
 }
 
 impl Cli {
@@ -52,6 +62,8 @@ impl Cli {
             Command::Fit(args) => fit::run(args),
             Command::Validate(args) => validate::run(args),
             Command::Export(args) => export::run(args),
+            Command::Completions(args) => shell::completions(args),
+            Command::Man(args) => shell::man(args),
         }
     }
 }

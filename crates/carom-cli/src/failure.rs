@@ -32,6 +32,9 @@ impl Failure {
     /// A mistake in the text of a file; without a place it is shown in a line.
     pub fn in_file(error: LawError, name: &str, text: &str) -> Self {
         let Some(span) = error.span.clone() else { return Self::Input(format!("{name}: {error}")) };
+        if !can_be_shown(&span, text) {
+            return Self::Input(error.located(name, text));
+        }
         let mut diagnostic =
             MietteDiagnostic::new(error.message()).with_label(LabeledSpan::underline(first_line(span, text)));
         if let Some(help) = error.help_in(&InFile) {
@@ -59,6 +62,21 @@ impl Failure {
             Self::BrokenPipe => ExitCode::SUCCESS,
         }
     }
+}
+
+/// Whether the lines about a place are short enough to be shown.
+fn can_be_shown(span: &std::ops::Range<usize>, text: &str) -> bool {
+    const MOST: usize = 500;
+    let at = span.start.min(text.len());
+    let before = text.as_bytes()[..at].iter().rev().scan(0, |lines, b| {
+        *lines += usize::from(*b == b'\n');
+        (*lines < 2).then_some(())
+    });
+    let after = text.as_bytes()[at..].iter().scan(0, |lines, b| {
+        *lines += usize::from(*b == b'\n');
+        (*lines < 2).then_some(())
+    });
+    before.take(MOST + 1).count() + after.take(MOST + 1).count() <= MOST
 }
 
 /// The words of a file's keys, on a command line that can list materials.

@@ -135,7 +135,8 @@ fn one(args: &Args, path: &std::path::Path) -> Result<(), Failure> {
     check_files(args)?;
     let free = args.free(&[])?;
     let library = args.law.materials.library()?;
-    let data = Data::from_csv(&path.display().to_string(), &output::read(path)?, args.diameter)?;
+    let data = Data::from_csv(&path.display().to_string(), &output::read_points(path)?, args.diameter)?;
+    crate::validate::tell_left_out(&data.name, &data.left_out);
     let oblique = data.points.iter().any(|p| p.tangential_restitution.is_some());
     let law = args.law.compile_with(oblique, &library, |spec| {
         for one in &free {

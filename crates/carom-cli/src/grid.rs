@@ -4,9 +4,10 @@ mod by;
 mod over;
 
 pub use by::By;
-pub use over::{Over, Swept, with_unit};
+pub use over::{LengthUnit, Over, Swept, length_unit, with_unit};
 
 use crate::failure::Failure;
+use crate::law::Law;
 use crate::motion::ImpactArgs;
 use crate::output::{self, Files};
 use crate::text::plotted;
@@ -14,14 +15,15 @@ use crate::values;
 use by::set;
 use carom::study::Given;
 use carom_report::plot::Dash;
-use carom_report::{Axis, Color, Column, Plot, Series, Table, Values};
-use std::path::PathBuf;
+use carom_report::{Axis, Color, Column, Plot, ReportError, Series, Table, Values};
+use std::path::{Path, PathBuf};
 
 /// Points, curves and where they go.
-#[derive(clap::Args)]
+#[derive(clap::Args, Clone, Debug)]
 pub struct GridArgs {
     /// One curve for each value of any flag above: diameter=10um,20um, law=ea,eap, surface=glass,steel; or
-    /// pair=SPHERE/SURFACE,...; repeat it for all combinations. Values that hold commas are separated by ';'
+    /// pair=SPHERE/SURFACE,...; a range A..B:N of numbers is N values; repeat it for all combinations. Values that hold
+    /// commas are separated by ';'
     #[arg(long, value_name = "FLAG=A,B,...", help_heading = "Sweep")]
     by: Vec<By>,
     /// Number of points
@@ -30,12 +32,15 @@ pub struct GridArgs {
     /// Equal steps instead of equal ratios (an angle always has equal steps)
     #[arg(long, help_heading = "Sweep")]
     linear: bool,
-    /// Write the whole table to a file (.csv, .parquet or .json)
+    /// Write the whole table to a file (.csv, .parquet or .json), or as CSV to standard output: -
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     out: Option<PathBuf>,
     /// Draw the curves (.svg or .png)
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     plot: Option<PathBuf>,
+    /// The plot's title instead of the law's and the impact's own
+    #[arg(long, value_name = "TEXT", requires = "plot", help_heading = "Output")]
+    title: Option<String>,
     /// Print the whole table as JSON, an object a row
     #[arg(long, help_heading = "Output")]
     json: bool,
@@ -65,6 +70,11 @@ pub struct Grid<'a> {
 const MOST: usize = 5_000_000;
 
 impl GridArgs {
+    /// The title that was asked for.
+    pub fn title(&self) -> Option<&str> {
+        self.title.as_deref()
+    }
+
     /// Is JSON wanted?
     pub fn json(&self) -> bool {
         self.json
@@ -73,6 +83,22 @@ impl GridArgs {
     /// Is there anything of a grid without `--over`?
     pub fn needs_over(&self) -> bool {
         !self.by.is_empty() || self.out.is_some() || self.plot.is_some()
+    }
+
+    /// Lays a map out: the points of `across` for each point of `up`.
+    pub fn map(&self, across: Over, up: Over, base: &ImpactArgs) -> Result<(GridArgs, Vec<f64>), Failure> {
+        if !self.by.is_empty() {
+            return Err(Failure::input("--by makes curves, and two --over make a map; leave one of them out"));
+        }
+        if across.quantity == up.quantity {
+            return Err(Failure::input(format!("--over {}: it runs already; keep one", up.quantity.flag())));
+        }
+        let drawn = base.motion.diameter.as_ref().is_some_and(|d| d.distribution().is_some());
+        if drawn || base.law.drawn().next().is_some() {
+            return Err(Failure::input("a map has one value of each flag; a distribution cannot be drawn there"));
+        }
+        let points = up.points(self.points as usize, self.is_linear(up));
+        Ok((Self { by: vec![By::along(&up, &points)], ..self.clone() }, points))
     }
 
     /// The files, checked.
@@ -111,12 +137,19 @@ impl GridArgs {
         if over.quantity == Swept::Diameter && curves.iter().any(drawn) {
             return Err(Failure::input("--diameter is a distribution, but --over runs through the diameter; keep one"));
         }
+        if let Swept::Law(key) = over.quantity
+            && curves.iter().any(|c| c.args.law.draws(key))
+        {
+            let flag = over.quantity.flag();
+            return Err(Failure::input(format!("--{flag} is a distribution, but --over runs through it; keep one")));
+        }
         let points = over.points(count, self.is_linear(over));
         Ok(Grid { args: self, over, points, curves })
     }
 
-    fn is_linear(&self, over: Over) -> bool {
-        self.linear || over.quantity == Swept::Angle
+    /// Whether a range has equal steps.
+    pub fn is_linear(&self, over: Over) -> bool {
+        self.linear || over.is_linear()
     }
 }
 
@@ -150,15 +183,29 @@ impl Curve {
             Swept::Speed => motion.speed = Some(value),
             Swept::Diameter => motion.diameter = Some(Given::One(value)),
             Swept::Angle => motion.angle = Some(value),
+            Swept::Spin => motion.spin = Some(value),
+            Swept::Law(_) => {}
         }
         motion
+    }
+
+    /// The laws along the points: one for all, or one for each where a number of the law runs.
+    pub fn laws(&self, grid: &Grid) -> Result<Vec<Law>, Failure> {
+        let oblique = grid.is_oblique(self);
+        let Swept::Law(key) = grid.quantity() else { return Ok(vec![self.args.law.compile(oblique)?]) };
+        let at = |value: &f64| {
+            let mut law = self.args.law.clone();
+            law.set_number(key, *value);
+            law.compile(oblique)
+        };
+        grid.points.iter().map(at).collect()
     }
 }
 
 impl Grid<'_> {
     /// Whether a curve has impacts that are not head-on.
     pub fn is_oblique(&self, curve: &Curve) -> bool {
-        curve.args.motion.is_oblique() || self.quantity() == Swept::Angle
+        curve.args.motion.is_oblique() || matches!(self.quantity(), Swept::Angle | Swept::Spin)
     }
 
     /// What runs.
@@ -173,7 +220,7 @@ impl Grid<'_> {
         };
         let mut columns: Vec<Column> = Vec::new();
         for (n, by) in self.args.by.iter().enumerate() {
-            let quantity = Swept::ALL.into_iter().find(|q| q.flag() == by.key);
+            let quantity = Swept::all().find(|q| q.flag() == by.key);
             if let Some(quantity) = quantity.filter(|q| by.values.iter().all(|v| q.read(v).is_ok())) {
                 let (name, unit) = quantity.column();
                 columns.push(Column::float(name, unit, each(&|c| quantity.read(&c.values[n]).unwrap_or(f64::NAN))));
@@ -196,20 +243,7 @@ impl Grid<'_> {
 
     /// The horizontal axis.
     pub fn axis(&self) -> Axis {
-        let axis = match self.over.quantity {
-            Swept::Speed => Axis::new("speed", "m/s"),
-            Swept::Angle => Axis::new("angle of incidence from the surface", "°"),
-            Swept::Diameter => {
-                let (unit, factor) = match (self.over.from * self.over.to).sqrt() {
-                    d if d < 5e-7 => ("nm", 1e9),
-                    d if d < 1e-3 => ("µm", 1e6),
-                    _ => ("mm", 1e3),
-                };
-                Axis::scaled("diameter", unit, factor)
-            }
-        };
-        let axis = axis.range(self.over.from, self.over.to);
-        if self.args.is_linear(self.over) { axis } else { axis.log() }
+        self.over.axis(self.args.is_linear(self.over))
     }
 
     /// A line for each curve: colour by the first `--by`, dashes by the second.
@@ -252,6 +286,25 @@ impl Grid<'_> {
         self.args.by.iter().any(|b| b.key == flag || (b.key == "pair" && (flag == "sphere" || flag == "surface")))
     }
 
+    /// The unit that diameters were given in.
+    fn unit(&self) -> Option<LengthUnit> {
+        let by = self.args.by.iter().find(|by| by.key == Swept::Diameter.flag());
+        self.over.unit.or_else(|| length_unit(by?.values.first()?))
+    }
+
+    /// With diameters in the unit that they were given in.
+    fn in_units(&self, table: Table) -> Result<Table, Failure> {
+        let (name, si) = Swept::Diameter.column();
+        let Some((unit, factor)) = self.unit() else { return Ok(table) };
+        let columns = table.columns().iter().map(|column| match &column.values {
+            Values::Float(v) if column.name == name && column.unit == si => {
+                Column::float(name, unit, v.iter().map(|d| fifteen_digits(d / factor)))
+            }
+            _ => column.clone(),
+        });
+        Ok(Table::new(columns)?)
+    }
+
     /// Shows the result: files where named, else the table.
     pub fn show(
         &self,
@@ -260,15 +313,39 @@ impl Grid<'_> {
         short: impl FnOnce() -> Result<Table, Failure>,
         plot: impl FnOnce() -> Plot,
     ) -> Result<(), Failure> {
-        files.write(&whole, plot)?;
+        let plot = || match &self.args.title {
+            Some(title) => Plot { title: title.clone(), ..plot() },
+            None => plot(),
+        };
+        self.show_drawn(files, whole, short, |path| plot().write(path))
+    }
+
+    /// Likewise, with what draws the picture.
+    pub fn show_drawn(
+        &self,
+        files: &Files,
+        whole: impl Fn() -> Result<Table, Failure>,
+        short: impl FnOnce() -> Result<Table, Failure>,
+        draw: impl FnOnce(&Path) -> Result<(), ReportError>,
+    ) -> Result<(), Failure> {
+        if self.args.json && files.to_stdout() {
+            return Err(Failure::input("--json and --out - both go to standard output; keep one"));
+        }
+        // JSON is in SI units, whatever was given
+        files.write_drawn(|| if files.is_json() { whole() } else { self.in_units(whole()?) }, draw)?;
         if self.args.json {
             output::print(&whole()?.to_json()?)
         } else if !files.any() {
-            output::print(&telling(short()?)?.to_text())
+            output::print(&self.in_units(telling(short()?)?)?.to_text())
         } else {
             Ok(())
         }
     }
+}
+
+/// Without what dividing by a unit leaves in the last digit.
+fn fifteen_digits(x: f64) -> f64 {
+    format!("{x:.14e}").parse().unwrap_or(x)
 }
 
 /// Without the columns that have no value at all.

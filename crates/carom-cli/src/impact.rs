@@ -7,6 +7,7 @@ use crate::output::{self, Files};
 use crate::text::{Lines, number, percent, quantity};
 use crate::warnings::{Warnings, Yielding};
 use crate::{figures, history};
+use carom::WallLaw;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
@@ -40,6 +41,9 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<(), Failure> {
     let motion = args.case.motion.complete()?;
     let files = Files::check(args.history.as_ref(), args.plot.as_ref())?;
+    if files.to_stdout() {
+        return Err(Failure::input("--history -: the answer goes to standard output; name a file"));
+    }
     let law = args.case.law.compile(args.case.motion.is_oblique())?;
     let met = motion.meet(&law.wall).map_err(|e| refused(e, &motion))?;
     let answer = Answer::new(&law, &motion, &met)?;
@@ -142,7 +146,15 @@ fn warnings(law: &Law, motion: &Motion, met: &Met) -> Warnings {
 
 /// The answer in a few lines.
 fn tell(answer: &Answer, law: &Law, motion: &Motion, met: &Met) -> String {
-    let mut text = format!("{}\n\n", law.heading(motion.diameter));
+    let plastic = |eap: &WallLaw| {
+        let met = motion.meet(eap).ok()?;
+        Some(if met.rebounds() {
+            format!("restitution {}", number(met.outcome.restitution))
+        } else {
+            "capture".to_owned()
+        })
+    };
+    let mut text = format!("{}{}\n\n", law.heading(motion.diameter), law.by_default(plastic));
     let verdict = if met.rebounds() { "It rebounds" } else { "It is captured" };
     let _ = writeln!(text, "{verdict}: restitution {}\n", number(answer.restitution));
     text += &before_and_after(answer, motion, met);

@@ -2,7 +2,7 @@
 
 mod flags;
 
-pub use flags::Words;
+pub use flags::{Words, name as flag, number};
 
 use crate::failure::Failure;
 use crate::motion::one_wanted;
@@ -96,7 +96,12 @@ impl Population<'_> {
     /// The law with every distribution at its median.
     pub fn middle(&self) -> Result<Law, Failure> {
         let spec = self.spec(|_| 0.5);
-        Ok(Law { wall: self.compile(&spec)?, spec, has_friction: self.has_friction })
+        let unnamed = !self.args.is_named();
+        let eap = unnamed.then(|| {
+            let normal = Some(NormalSpec::Named(NormalKind::Eap).into());
+            LawSpec { normal, ..spec.clone() }.compile(&self.library).ok()
+        });
+        Ok(Law { wall: self.compile(&spec)?, spec, has_friction: self.has_friction, unnamed, eap: eap.flatten() })
     }
 
     /// The law where a flag's distribution, by its number from 1 on, is at the probability `draw` gives.
@@ -132,6 +137,10 @@ pub struct Law {
     pub spec: LawSpec,
     /// Was a friction coefficient given?
     pub has_friction: bool,
+    /// Was none named, so that it is `ea`?
+    unnamed: bool,
+    /// `eap` in its place, where none was named and the strengths are known.
+    eap: Option<WallLaw>,
 }
 
 /// The file a law came from: its name and text.
@@ -208,6 +217,23 @@ impl LawArgs {
         self.wall_law.as_ref().map(|(_, name)| name.as_str())
     }
 
+    /// Sets a number of the law, as a flag does.
+    pub fn set_number(&mut self, key: Key, value: f64) {
+        let mut law = LawSpec::default();
+        law.set_number(key, value);
+        self.given.insert(key, Given::One(Box::new(law)));
+    }
+
+    /// Is this number a distribution?
+    pub fn draws(&self, key: Key) -> bool {
+        matches!(self.given.get(&key), Some(Given::Drawn(_)))
+    }
+
+    /// Is the normal law named, by a flag or in a file?
+    fn is_named(&self) -> bool {
+        self.wall_law.is_some() || self.given.contains_key(&Key::Normal)
+    }
+
     /// Is any law given, by flags or a file?
     pub fn is_given(&self) -> bool {
         let telling = [Key::Sphere, Key::Surface, Key::Normal];
@@ -241,6 +267,18 @@ impl Law {
     pub fn heading(&self, diameter: f64) -> String {
         let materials = self.materials().unwrap_or_else(|| "sphere".to_owned());
         format!("{} {materials}, {}", scaled(diameter, "m"), self.normal_name())
+    }
+
+    /// What to say where no law was named: that it is `ea`, and what `told` says of `eap`.
+    pub fn by_default(&self, told: impl FnOnce(&WallLaw) -> Option<String>) -> String {
+        if !self.unnamed {
+            return String::new();
+        }
+        let eap = match self.eap.as_ref().and_then(told) {
+            Some(told) => format!("--law eap gives {told}"),
+            None => "no plastic loss".to_owned(),
+        };
+        format!(" (no --law given; {eap})")
     }
 
     /// `copper on aluminium`, if the law has materials.

@@ -18,6 +18,7 @@ mod removal;
 mod report;
 mod run;
 mod samples;
+mod shell;
 mod study;
 mod sweep;
 mod text;

@@ -2,7 +2,7 @@
 
 use crate::failure::{Failure, of_file, say};
 use carom_report::plot::ImageFormat;
-use carom_report::{Format, Plot, Table};
+use carom_report::{Format, Plot, ReportError, Table};
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
@@ -18,6 +18,11 @@ pub fn print_json(value: &impl serde::Serialize) -> Result<(), Failure> {
     print(&format!("{text}\n"))
 }
 
+/// Whether a file named by the user is standard output.
+fn is_stdout(path: &Path) -> bool {
+    path == Path::new("-") || path == Path::new("/dev/stdout")
+}
+
 /// The files a command is asked to write.
 pub struct Files<'a> {
     table: Option<&'a Path>,
@@ -27,7 +32,7 @@ pub struct Files<'a> {
 impl<'a> Files<'a> {
     /// Refuses, before anything is computed, what could not be written.
     pub fn check(table: Option<&'a PathBuf>, plot: Option<&'a PathBuf>) -> Result<Self, Failure> {
-        if let Some(path) = table {
+        if let Some(path) = table.filter(|path| !is_stdout(path)) {
             Format::from_path(path)?;
             check_folder(path)?;
         }
@@ -46,24 +51,46 @@ impl<'a> Files<'a> {
         self.table.is_some() || self.plot.is_some()
     }
 
+    /// Is the table printed as CSV?
+    pub fn to_stdout(&self) -> bool {
+        self.table.is_some_and(is_stdout)
+    }
+
+    /// Is the table's file JSON?
+    pub fn is_json(&self) -> bool {
+        self.table.is_some_and(|path| Format::from_path(path).is_ok_and(|format| format == Format::Json))
+    }
+
     /// Writes them and says so on standard error. If the second fails, the first is taken away again.
     pub fn write(
         &self,
         table: impl FnOnce() -> Result<Table, Failure>,
         plot: impl FnOnce() -> Plot,
     ) -> Result<(), Failure> {
-        if let Some(path) = self.table {
-            table()?.write(path)?;
+        self.write_drawn(table, |path| plot().write(path))
+    }
+
+    /// Likewise, with what draws the picture.
+    pub fn write_drawn(
+        &self,
+        table: impl FnOnce() -> Result<Table, Failure>,
+        draw: impl FnOnce(&Path) -> Result<(), ReportError>,
+    ) -> Result<(), Failure> {
+        match self.table {
+            Some(path) if is_stdout(path) => print(&table()?.headed()?.to_csv()?)?,
+            Some(path) if Format::from_path(path)? == Format::Csv => table()?.headed()?.write(path)?,
+            Some(path) => table()?.write(path)?,
+            None => {}
         }
         if let Some(path) = self.plot {
-            plot().write(path).map_err(|e| {
-                if let Some(written) = self.table {
+            draw(path).map_err(|e| {
+                if let Some(written) = self.table.filter(|path| !is_stdout(path)) {
                     let _ = std::fs::remove_file(written);
                 }
                 Failure::from(e)
             })?;
         }
-        for path in [self.table, self.plot].into_iter().flatten() {
+        for path in [self.table.filter(|path| !is_stdout(path)), self.plot].into_iter().flatten() {
             say(&format!("wrote {}", path.display()));
         }
         Ok(())
@@ -93,13 +120,23 @@ const LARGEST: u64 = 64 << 20;
 
 /// The text of a file named by the user.
 pub fn read(path: &Path) -> Result<String, Failure> {
+    String::from_utf8(bytes(path)?).map_err(|_| Failure::input(format!("{}: not a text in UTF-8", path.display())))
+}
+
+/// The text of a file of measured points, in whatever encoding a spreadsheet chose.
+pub fn read_points(path: &Path) -> Result<String, Failure> {
+    let text = carom_lab::points::text(&bytes(path)?);
+    text.map_err(|e| Failure::input(format!("{}: {e}", path.display())))
+}
+
+fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
     use io::Read as _;
     let name = path.display().to_string();
-    let mut text = String::new();
+    let mut bytes = Vec::new();
     let file = std::fs::File::open(path).map_err(|e| of_file(&name, &e))?;
-    file.take(LARGEST + 1).read_to_string(&mut text).map_err(|e| of_file(&name, &e))?;
-    if text.len() as u64 > LARGEST {
+    file.take(LARGEST + 1).read_to_end(&mut bytes).map_err(|e| of_file(&name, &e))?;
+    if bytes.len() as u64 > LARGEST {
         return Err(Failure::input(format!("{name}: larger than 64 MiB, which no such file is")));
     }
-    Ok(text)
+    Ok(bytes)
 }

@@ -86,6 +86,11 @@ fn fates(page: &mut Report, summary: &Summary) -> Result<(), Failure> {
         Column::float("share of mass", "%", masses.map(|m| rounded(100.0 * m / mass)).chain([100.0])),
     ])?;
     page.section("Fates").table(&table, "How the particles ended, and the mass they stand for.");
+    if summary.strayed > 0 {
+        let went =
+            format!("{} went outside the table of the flow, where the values of its boundary hold.", summary.strayed);
+        page.paragraph(&went);
+    }
     if summary.stalled > 0 {
         page.paragraph(&format!("{} of the airborne were left where their steps ran out.", summary.stalled));
     }

@@ -186,6 +186,13 @@ pub fn tell(summary: &Summary) -> Result<String, Failure> {
     if summary.stalled > 0 {
         let _ = writeln!(text, "{} of the airborne were left where their steps ran out\n", summary.stalled);
     }
+    if summary.strayed > 0 {
+        let _ = writeln!(
+            text,
+            "{} went outside the table of the flow, where the values of its boundary hold\n",
+            summary.strayed
+        );
+    }
     let walls = &summary.walls;
     let mut columns = vec![
         Column::text("wall", walls.iter().map(|w| w.name.as_str())),

@@ -1,9 +1,11 @@
-//! `carom sweep`: impacts along a range of speeds, diameters or angles, as a table and a plot.
+//! `carom sweep`: impacts along a range of speeds, diameters, angles or numbers of the law, as a table and a plot; along two, a map.
+
+mod map;
 
 use crate::failure::{Failure, say};
-use crate::grid::{Grid, GridArgs, Over, Swept};
+use crate::grid::{Curve, Grid, GridArgs, Over, Swept};
 use crate::law::Law;
-use crate::motion::{ImpactArgs, Met, refused};
+use crate::motion::{ImpactArgs, Met, Motion, refused};
 use crate::output::Files;
 use crate::samples::{SampleArgs, note};
 use crate::study::{Figure, NOTHING, Study, drawn, is_drawn};
@@ -20,6 +22,8 @@ Examples:
   carom sweep --sphere copper --surface silicon --diameter 90um --over speed=0.1..30 --by law=ea,resolved
   carom sweep --wall-law walls.toml:glass --diameter 90um --speed 2 --over angle=5..90 \
     --quantity impulse-ratio --plot impulse.png
+  carom sweep --sphere copper --surface silicon --law eap --over speed=0.1..30 --over diameter=1..100um --plot map.svg
+  carom sweep --sphere copper --surface silicon --diameter 90um --speed 2 --angle 30 --over friction=0..0.5
   carom sweep --sphere copper --surface silicon --diameter 'lognormal(50um, 1.3)' \
     --roughness-factor 'normal(0.8, 0.1)' --over speed=0.01..1 --plot bands.svg
 
@@ -29,15 +33,18 @@ scatters (--roughness-angle).
 
 The table goes to standard output unless a file is asked for with --out or --plot.";
 
-/// Compute impacts over a range of speeds, diameters or angles, as a table or plot
+/// Compute impacts over a range of speeds, diameters, angles or numbers of the law: a table, plot or map
 #[derive(clap::Args)]
 #[command(after_long_help = EXAMPLE)]
 pub struct Args {
     #[command(flatten)]
     case: ImpactArgs,
-    /// What runs, with its range: speed=0.1m/s..30m/s, diameter=1um..100um or angle=5..90
-    #[arg(long, value_name = "RANGE", help_heading = "Sweep")]
-    over: Over,
+    /// What runs, with its range: speed=0.1m/s..30m/s, diameter=1um..100um, angle=5..90, friction=0..0.5, or any other
+    /// number of the impact or the law
+    ///
+    /// Given twice it is a map: the regions of capture, rebound and rebound with yield.
+    #[arg(long, value_name = "RANGE", required = true, help_heading = "Sweep")]
+    over: Vec<Over>,
     #[command(flatten)]
     grid: GridArgs,
     #[command(flatten)]
@@ -89,22 +96,30 @@ impl Shown {
 /// Runs the subcommand.
 pub fn run(args: &Args) -> Result<(), Failure> {
     let files = args.grid.files()?;
-    let grid = args.grid.grid(args.over, &args.case)?;
+    let over = match args.over[..] {
+        [over] => over,
+        [across, up] => return map::run(args, across, up),
+        _ => return Err(Failure::input("--over makes a curve, twice a map; --by adds more")),
+    };
+    let grid = args.grid.grid(over, &args.case)?;
     if let Some(sampling) = args.samples.sampling(grid.curves.iter().any(|c| is_drawn(&c.args))) {
+        if let Swept::Law(_) = grid.quantity() {
+            let flag = grid.quantity().flag();
+            let message = format!(
+                "--over {flag}: where values are distributions, speed, diameter or angle runs; --by {flag}=... makes curves of it"
+            );
+            return Err(Failure::input(message));
+        }
         return sampled(args, &grid, &files, &sampling);
     }
     let Some(shown) = args.quantity.figure() else {
         return Err(Failure::input(format!("--quantity sticking-probability: one impact has none. {NOTHING}")));
     };
-    let mut laws = Vec::with_capacity(grid.curves.len());
-    let mut met = Vec::with_capacity(grid.curves.len() * grid.points.len());
+    let (mut laws, mut met) = (Vec::with_capacity(grid.curves.len()), Vec::new());
     for curve in &grid.curves {
-        let law = curve.args.law.compile(grid.is_oblique(curve))?;
-        for point in &grid.points {
-            let motion = curve.at(grid.quantity(), *point).complete()?;
-            met.push(motion.meet(&law.wall).map_err(|e| refused(e, &motion))?);
-        }
-        laws.push(law);
+        let along = curve.laws(&grid)?;
+        met.extend(impacts(&grid, curve, &along)?.into_iter().map(|(met, _)| met));
+        laws.extend(along.into_iter().next());
     }
     let oblique = grid.curves.iter().any(|c| grid.is_oblique(c));
     grid.show(
@@ -113,6 +128,16 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         || short(&grid, &met, oblique),
         || plot(&grid, &met, &laws, args.quantity, shown),
     )
+}
+
+/// What comes of each point of a curve, and its motion.
+fn impacts(grid: &Grid, curve: &Curve, along: &[Law]) -> Result<Vec<(Met, Motion)>, Failure> {
+    let laws = along.iter().chain(along.last().into_iter().cycle());
+    let at = |(point, law): (&f64, &Law)| {
+        let motion = curve.at(grid.quantity(), *point).complete()?;
+        Ok((motion.meet(&law.wall).map_err(|e| refused(e, &motion))?, motion))
+    };
+    grid.points.iter().zip(laws).map(at).collect()
 }
 
 fn float(name: &str, unit: &str, met: &[Met], get: impl Fn(&Met) -> f64) -> Column {

@@ -130,15 +130,13 @@ fn extent(lines: &[Line]) -> Option<([f64; 2], [f64; 2])> {
 fn plot(about: &About, lines: &[Line], low: [f64; 2], high: [f64; 2]) -> Plot {
     let (low, high) = with_walls(about, low, high);
     let [width, height] = [high[0] - low[0], high[1] - low[1]];
-    let axis = |label: &str, span: f64| {
-        let (unit, factor) = match span {
-            s if s < 1e-3 => ("µm", 1e6),
-            s if s < 1.0 => ("mm", 1e3),
-            _ => ("m", 1.0),
-        };
-        Axis::scaled(label, unit, factor)
+    // one unit for both axes
+    let (unit, factor) = match width.max(height) {
+        s if s < 1e-3 => ("µm", 1e6),
+        s if s < 1.0 => ("mm", 1e3),
+        _ => ("m", 1.0),
     };
-    let mut plot = Plot::new(&about.title, axis("x", width), axis("y", height));
+    let mut plot = Plot::new(&about.title, Axis::scaled("x", unit, factor), Axis::scaled("y", unit, factor));
     let mut named = Vec::new();
     for line in lines {
         let injection = about.injection(line.particle).unwrap_or(0);

@@ -57,12 +57,13 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         return output::print(&found.to_json().map_err(failed)?);
     }
     let mut text = found.summary().map_err(failed)?.to_text();
-    let missed: Vec<_> = found.claims.iter().filter(|c| !c.holds).collect();
+    let counted: Vec<_> = found.claims.iter().filter(|c| c.counts()).collect();
+    let missed: Vec<_> = counted.iter().filter(|c| !c.holds).collect();
     let _ = writeln!(
         text,
         "\n{} of {} claims of the paper are not reproduced from their own inputs:",
         missed.len(),
-        found.claims.len()
+        counted.len()
     );
     for claim in missed {
         let _ = writeln!(text, "- {}: computed {}", claim.says, carom_report::significant(claim.computed, 3));
@@ -80,7 +81,17 @@ fn add_points(experiments: &mut [Experiment], path: &Path) -> Result<(), Failure
         let known = names.join(", ");
         return Err(Failure::input(format!("--points {file}: no experiment '{stem}'; {near}known are {known}")));
     };
-    Ok(points::add(experiment, &file, &output::read(path)?)?)
+    let text = output::read_points(path)?;
+    points::add(experiment, &file, &text)?;
+    tell_left_out(&file, &points::read(&text).map(|rows| rows.left_out).unwrap_or_default());
+    Ok(())
+}
+
+/// Says which columns of a file of points nothing reads.
+pub fn tell_left_out(file: &str, columns: &[String]) {
+    if !columns.is_empty() {
+        say(&format!("note: {file}: not used: {}", columns.join(", ")));
+    }
 }
 
 fn failed(error: LabError, folder: Option<&Path>) -> Failure {

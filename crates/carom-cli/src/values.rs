@@ -20,7 +20,7 @@ pub fn law_place(text: &str) -> Result<(PathBuf, String), String> {
 pub fn normal_law(text: &str) -> Result<NormalSpec, String> {
     let names: Vec<&str> = text.split([',', '+']).map(str::trim).collect();
     match names.as_slice() {
-        [one] if Loss::ALL.iter().all(|l| l.name() != *one) => {
+        [one] if Loss::ALL.iter().all(|l| !l.name().eq_ignore_ascii_case(one)) => {
             one.parse().map_err(|e: LawError| format!("{}, or losses separated by commas", e.said_in(&Words)))
         }
         losses => {
@@ -108,6 +108,7 @@ mod tests {
             normal_law("adhesion-work, hertz-damping"),
             Ok(NormalSpec::Losses(vec![Loss::AdhesionWork, Loss::HertzDamping]))
         );
+        assert!(matches!(normal_law("EAP"), Ok(NormalSpec::Named(carom::spec::NormalKind::Eap))));
         assert!(normal_law("eaa").is_err_and(|e| e.contains("did you mean ea")));
         assert!(normal_law("adhesion-work,ea").is_err());
     }

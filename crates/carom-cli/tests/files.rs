@@ -31,7 +31,7 @@ fn tables_have_a_row_for_each_point_in_every_format() {
     assert_eq!(
         csv.lines().next(),
         Some(
-            "speed,fate,restitution,normal_speed_out,tangential_speed_out,spin_out,angle_out_deg,impulse_ratio,\
+            "speed (m/s),fate,restitution,normal_speed_out (m/s),tangential_speed_out (m/s),spin_out (rad/s),angle_out_deg,impulse_ratio,\
              tangential_restitution,contact,energy_adhesion,energy_adhesion_damping,energy_hertz_damping,\
              energy_plastic,energy_other,energy_friction,energy_captured,energy_kept,validity"
         )
@@ -40,6 +40,33 @@ fn tables_have_a_row_for_each_point_in_every_format() {
     let rows: serde_json::Value = serde_json::from_str(&json).expect("JSON");
     assert_eq!(rows.as_array().map(Vec::len), Some(11));
     assert!(std::fs::read(folder.path().join("t.parquet")).expect("bytes").starts_with(b"PAR1"));
+}
+
+#[test]
+fn a_table_goes_to_standard_output_and_back_into_a_fit() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let law = "--sphere copper --surface silicon --roughness-factor 0.1";
+    for name in ["-", "/dev/stdout"] {
+        let out = carom(
+            folder.path(),
+            &format!("sweep {law} --over speed=0.1..5 --by diameter=50,90um --points 5 --out {name}"),
+        );
+        assert!(out.status.success() && out.stderr.is_empty(), "{}", String::from_utf8_lossy(&out.stderr));
+        let csv = String::from_utf8_lossy(&out.stdout).into_owned();
+        assert!(csv.starts_with("diameter (um),speed (m/s),fate,restitution,"), "{csv}");
+        assert!(csv.contains("\n90.0,5.0,rebound,"), "{csv}");
+        std::fs::write(folder.path().join("s.csv"), csv).expect("a file");
+    }
+    let fit = carom(
+        folder.path(),
+        "fit s.csv --sphere copper --surface silicon --free roughness_factor --bootstrap 0 --json",
+    );
+    let told = String::from_utf8_lossy(&fit.stderr).into_owned();
+    assert!(fit.status.success() && told.contains("note: s.csv: not used: fate,"), "{told}");
+    let found: serde_json::Value = serde_json::from_slice(&fit.stdout).expect("JSON");
+    assert!(found.to_string().contains("0.1"), "{found}");
+    let both = carom(folder.path(), &format!("sweep {law} --diameter 9um --over speed=1..2 --out - --json"));
+    assert_eq!(both.status.code(), Some(2));
 }
 
 #[test]
@@ -82,7 +109,7 @@ fn capture_draws_a_curve_over_diameter() {
     assert!(svg.contains("diameter (µm)") && svg.contains("capture velocity (m/s)"));
     let csv = std::fs::read_to_string(folder.path().join("c.csv")).expect("text");
     assert!(
-        csv.starts_with("surface,diameter,capture_velocity,exhausted_velocity,yield_velocity,tabor_parameter,regime\n")
+        csv.starts_with("surface,diameter (um),capture_velocity (m/s),exhausted_velocity (m/s),yield_velocity (m/s),tabor_parameter,regime\nsilicon,1.0,")
     );
     assert_eq!(csv.lines().count(), 401);
 }
@@ -95,7 +122,7 @@ fn the_resolved_contact_has_a_history() {
     assert!(out.status.success(), "{}", String::from_utf8_lossy(&out.stderr));
     let answer: serde_json::Value = serde_json::from_slice(&out.stdout).expect("JSON");
     let csv = std::fs::read_to_string(folder.path().join("h.csv")).expect("text");
-    assert!(csv.starts_with("time,overlap,speed,hertz_force,net_force,slip\n"));
+    assert!(csv.starts_with("time (s),overlap (m),speed (m/s),hertz_force (N),net_force (N),slip (m/s)\n"));
     let last: Vec<f64> = csv.lines().last().expect("rows").split(',').map(|v| v.parse().expect("a number")).collect();
     let normal = answer["rebound"]["normal"].as_f64().expect("a number");
     // it leaves as fast as the impact says

@@ -93,7 +93,7 @@ fn a_survey_has_a_row_for_each_surface_in_the_order_of_stiffness() {
     let table = text(folder.path(), "t.csv");
     let names: Vec<&str> = table.lines().skip(1).filter_map(|l| l.split(',').next()).collect();
     assert_eq!(names, ["tedlar", "silicon"]); // aluminium has no points here
-    let head = "name,surface,young_modulus,points,adhesion_damping,adhesion_damping_error,adhesion_damping_low,";
+    let head = "name,surface,young_modulus (Pa),points,adhesion_damping (s/m),adhesion_damping_error (s/m),";
     assert!(table.starts_with(head), "{table}");
     assert!(text(folder.path(), "t.svg").contains("C_H, Hertzian damping"));
     assert!(out.contains("In brackets: 95 % intervals"), "{out}");

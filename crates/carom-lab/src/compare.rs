@@ -241,6 +241,15 @@ pub struct Recomputed {
     pub holds: bool,
     /// An input was chosen so that it holds.
     pub by_choice: bool,
+    /// Why it is told and not counted.
+    pub aside: Option<String>,
+}
+
+impl Recomputed {
+    /// Whether it is a claim of the paper, from its own inputs.
+    pub fn counts(&self) -> bool {
+        !self.by_choice && self.aside.is_none()
+    }
 }
 
 /// Recomputes a claim.
@@ -287,6 +296,7 @@ pub fn claim(experiment: &Experiment, claim: &Claim, library: &Library) -> Resul
         computed,
         holds,
         by_choice: claim.by_choice,
+        aside: claim.aside.clone(),
     })
 }
 

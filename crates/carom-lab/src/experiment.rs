@@ -241,6 +241,8 @@ pub struct Claim {
     /// What was chosen here so that it holds: then it is no test.
     #[serde(default)]
     pub by_choice: bool,
+    /// Why it is told and not counted: another reading or another point of a claim that is, or nothing that follows from inputs.
+    pub aside: Option<String>,
 }
 
 /// A number that a law gives.

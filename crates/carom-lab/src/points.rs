@@ -11,7 +11,7 @@ use carom::spec::At;
 
 mod reader;
 
-pub use reader::{Row, Rows, read};
+pub use reader::{Row, Rows, read, text};
 
 impl Row {
     /// The measured value of a quantity.
@@ -46,7 +46,7 @@ const QUANTITIES: [(Quantity, &str); 3] = [
 /// ```
 pub fn add(experiment: &mut Experiment, name: &str, text: &str) -> Result<(), LabError> {
     let wrong = |e: SpecError| LabError::Points(e.located(name, text));
-    let Rows { said, rows } = read(text).map_err(wrong)?;
+    let Rows { said, rows, .. } = read(text).map_err(wrong)?;
     let source = if said.is_empty() { name.to_owned() } else { format!("{name}: {said}") };
     let mut found: Vec<Vec<Row>> = experiment.panels.iter().map(|_| Vec::new()).collect();
     for row in rows {

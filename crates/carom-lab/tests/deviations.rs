@@ -31,7 +31,7 @@ fn no_deviation_grows() {
 }
 
 /// What a claim says begins so; what its inputs give; whether it holds.
-const CLAIMS: [(&str, f64, bool); 13] = [
+const CLAIMS: [(&str, f64, bool); 15] = [
     ("yield velocity 0.37 m/s, with k = 290 MPa as printed", 1.748_456_973_4, false),
     ("yield velocity 0.37 m/s, with sigma = 290 MPa", 0.309_086_445_6, false),
     ("yield velocity 0.37 m/s, with k = 145 MPa and aluminium's", 0.373_849_346_7, true),
@@ -44,6 +44,8 @@ const CLAIMS: [(&str, f64, bool); 13] = [
     ("Tabor's curve with the fitted", 0.832_407_106_8, true),
     ("Tabor's curve passes the data at 6.3", 0.581_943_318_6, true),
     ("Thornton & Ning overestimate", 0.301_600_401_0, false),
+    ("Thornton & Ning, with the paper's", 0.579_476_107_0, true),
+    ("the larger Young's modulus", 0.909_421_298_1, false),
     ("critical angle of rolling, Eq. 25", 57.480_045_103, false),
 ];
 
@@ -57,6 +59,11 @@ fn claims_are_what_their_inputs_give() {
         assert!((claim.computed / computed - 1.0).abs() < 1e-8, "{says}: {}", claim.computed);
         assert_eq!(claim.holds, holds, "{says}");
     }
+    // what the paper claims, once, from its own inputs
+    let counted: Vec<_> = found.claims.iter().filter(|c| c.counts()).collect();
+    assert_eq!((counted.len(), counted.iter().filter(|c| !c.holds).count()), (8, 4));
+    let voiced = counted.iter().filter(|c| c.says.starts_with("yield velocity"));
+    assert_eq!(voiced.count(), 1);
 }
 
 #[test]

@@ -89,7 +89,15 @@ fn mistakes_are_named_with_their_line() {
             Some("w.csv:3:1: speed -1; a point needs a positive speed in m/s"),
         ),
         ("dahneke-1975", "speed,restitution\n1,high\n", Some("w.csv:2:3: restitution 'high'; a number is wanted")),
-        ("dahneke-1975", "speed,e\n1,0.9\n", Some("w.csv:1:7: unknown column 'e'")),
+        ("dahneke-1975", "speed,restituton\n1,0.9\n", Some("w.csv:1:7: unknown column 'restituton'")),
+        ("dahneke-1975", "a,b\n1,0.9\n", Some("w.csv:1:1: no column is known among 'a', 'b'")),
+        ("dahneke-1975", "speed,restitution\n#N/A,0.9\n", Some("w.csv:2:1: speed '#N/A'; a number is wanted")),
+        (
+            "dahneke-1975",
+            "\u{feff}speed,restitution\n1,high\n",
+            Some("w.csv:2:3: restitution 'high'; a number is wanted"),
+        ),
+        ("dahneke-1975", "speed,velocity,e\n1,1,0.9\n", Some("w.csv:1:7: a second column speed")),
         ("dahneke-1975", "speed,restitution,angle\n1,0.9,120\n", Some("w.csv:2:7: angle 120")),
         (
             "dahneke-1975",
@@ -146,4 +154,39 @@ fn a_model_without_a_value_is_no_agreement() {
 fn a_folder_without_experiments_is_refused() {
     let folder = tempfile::tempdir().expect("a folder");
     assert!(matches!(from_folder(folder.path()), Err(LabError::File { .. })));
+}
+
+/// Two points in every dress that people and programs give them.
+#[test]
+fn points_as_others_write_them() {
+    for text in [
+        "speed [m/s],restitution [-]\n0.5,0.952\n2,0.981\n",
+        "velocity (mm/s),COR,run\n500,0.952,1\n2000,0.981,2\n",
+        "V;e\n0,5;0,952\n2;0,981\n",
+        "sep=;\r\nSpeed;Coefficient of restitution;\r\n0,5;0,952;\r\n2;0,981;\r\n",
+        "Impact velocity\tRestitution\tComment\n0.5\t0.952\tgood\n2\t0.981\t\n",
+        "speed,restitution\nm/s,-\n0.5,0.952\n2,0.981\n",
+        "\u{feff}speed,restitution,\n0.5,0.952,\n2,0.981,\n",
+        "Taken on Monday\nspeed,restitution\n0.5,0.952\n2,0.981\n",
+    ] {
+        let rows = points::read(text).unwrap_or_else(|e| panic!("{text}: {e}")).rows;
+        let found: Vec<_> = rows.iter().map(|r| (&r.speed, &r.restitution)).collect();
+        let found: Vec<_> =
+            found.into_iter().filter_map(|(a, b)| Some((a.as_ref()?.value, b.as_ref()?.value))).collect();
+        assert_eq!(found, [(0.5, 0.952), (2.0, 0.981)], "{text}");
+    }
+    let rows = points::read("speed,restitution,run\n1,0.9,7\n").expect("points");
+    assert_eq!(rows.left_out, ["run"]);
+    assert_eq!(points::text(b"\xff\xfes\0").expect("UTF-16"), "s");
+}
+
+#[test]
+fn what_a_sweep_writes_is_read() {
+    let text = "diameter [um],angle_deg,fate,restitution,normal_speed_out [m/s],speed [m/s],impulse_ratio,tangential_restitution,contact\n\
+        10,47.5,rebound,0.39,0.57,2,0.188,0.714,rolling\n10,90,capture,0,0,2,0,,none\n";
+    let data = carom_lab::fit::Data::from_csv("s.csv", text, None).expect("points");
+    assert_eq!(data.points.len(), 2);
+    assert_eq!((data.points[0].angle_deg, data.points[1].restitution), (47.5, Some(0.0)));
+    assert!((data.points[0].diameter - 1e-5).abs() < 1e-18);
+    assert_eq!(data.left_out.len(), 4, "{:?}", data.left_out);
 }

@@ -230,10 +230,19 @@ fn lines_are_cut_at_the_frame() {
 #[test]
 fn equal_aspect_makes_a_circle_round() {
     let angle = (0..=72).map(|i| f64::from(i) * 5.0_f64.to_radians());
-    let plot = Plot::new("", Axis::new("", ""), Axis::new("", ""))
-        .with(Series::line("", angle.clone().map(f64::cos), angle.map(|a| 3.0 + a.sin())).color(Color(1, 2, 3)))
-        .equal_aspect();
-    let svg = plot.svg().unwrap();
+    // whatever units the axes are shown in
+    for factor in [1.0, 1e3, 1e-3] {
+        let plot = Plot::new("", Axis::new("", ""), Axis::scaled("", "", factor))
+            .with(
+                Series::line("", angle.clone().map(f64::cos), angle.clone().map(|a| 3.0 + a.sin()))
+                    .color(Color(1, 2, 3)),
+            )
+            .equal_aspect();
+        round(&plot.svg().unwrap());
+    }
+}
+
+fn round(svg: &str) {
     let line = svg.lines().find(|l| l.contains("#010203")).unwrap();
     let points: Vec<(f64, f64)> = line
         .split("points=\"")

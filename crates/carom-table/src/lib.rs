@@ -38,6 +38,7 @@ mod reader;
 #[cfg(feature = "parquet")]
 mod row_groups;
 mod rows;
+pub mod sheet;
 mod text;
 mod values;
 #[cfg(not(feature = "parquet"))]
@@ -50,7 +51,8 @@ pub use reader::TableReader;
 #[cfg(feature = "parquet")]
 pub use row_groups::{RowGroups, to_parquet};
 pub use rows::{Row, RowReader};
-pub use text::column_cells;
+pub use sheet::{Heading, Sheet, SheetError, SheetProblem};
+pub use text::{clipped, column_cells, quoted};
 pub use values::{Cell, Kind, Values};
 #[cfg(not(feature = "parquet"))]
 pub use without_parquet::{RowGroups, to_parquet};
@@ -292,6 +294,19 @@ impl Table {
         let mut writer = TableWriter::create(path, self.schema())?;
         writer.write(self)?;
         writer.finish()
+    }
+
+    /// The table with units in its columns' names, `speed (m/s)`, for a file that says its units itself.
+    ///
+    /// # Errors
+    /// [`TableError::Mismatch`] where two names are the same then.
+    pub fn headed(&self) -> Result<Self, TableError> {
+        let columns = self.columns.iter().map(|column| {
+            let mut column = column.clone();
+            (column.name, column.unit) = (column.field().heading(), String::new());
+            column
+        });
+        Self::new(columns)
     }
 
     /// The table as CSV text: one header line of bare names, then a line for each row.

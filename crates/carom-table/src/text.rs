@@ -2,6 +2,7 @@
 
 use crate::number;
 use crate::{Column, Table, Values};
+use std::borrow::Cow;
 
 /// What stands for a missing value.
 const MISSING: &str = "-";
@@ -35,14 +36,39 @@ pub(crate) fn render(table: &Table) -> String {
 /// The heading and then every row's text, as a person reads it.
 pub fn column_cells(column: &Column) -> Vec<String> {
     let missing = || MISSING.to_owned();
-    let mut cells = vec![column.field().heading()];
+    let mut cells = vec![cut(&column.field().heading(), WIDEST).into_owned()];
     match &column.values {
         Values::Float(v) => {
             cells.extend(v.iter().map(|x| if x.is_nan() { missing() } else { number::significant(*x, 6) }));
         }
         Values::Integer(v) => cells.extend(v.iter().map(|i| i.map_or_else(missing, |i| i.to_string()))),
         Values::Count(v) => cells.extend(v.iter().map(|n| n.map_or_else(missing, |n| n.to_string()))),
-        Values::Text(v) => cells.extend(v.iter().map(|s| s.as_deref().map_or_else(missing, str::to_owned))),
+        Values::Text(v) => {
+            cells.extend(v.iter().map(|s| s.as_deref().map_or_else(missing, |s| cut(s, WIDEST).into_owned())));
+        }
     }
     cells
+}
+
+/// Characters of a text that a message repeats.
+const MOST: usize = 60;
+
+/// Characters of a cell in a terminal; beyond 65535, formatting would refuse.
+const WIDEST: usize = 300;
+
+fn cut(text: &str, most: usize) -> Cow<'_, str> {
+    match text.char_indices().nth(most) {
+        Some((end, _)) => Cow::Owned(format!("{}…", &text[..end])),
+        None => Cow::Borrowed(text),
+    }
+}
+
+/// A text that is cut where it is too long for a message.
+pub fn clipped(text: &str) -> Cow<'_, str> {
+    cut(text, MOST)
+}
+
+/// A text in quotes for a message, cut where it is too long.
+pub fn quoted(text: &str) -> String {
+    format!("\"{}\"", clipped(text))
 }

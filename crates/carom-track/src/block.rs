@@ -234,6 +234,10 @@ impl Sink for Collector<'_> {
     fn stalled(&mut self) {
         self.summary.stalled += 1;
     }
+
+    fn strayed(&mut self) {
+        self.summary.strayed += 1;
+    }
 }
 
 /// A summary of nothing.

@@ -12,6 +12,7 @@ mod scale;
 mod stl;
 mod text;
 mod wall;
+mod whole;
 
 pub(crate) use files::Fingerprint;
 pub use injection::Injected;
@@ -81,7 +82,7 @@ impl Case {
         let read: CaseText = toml::from_str(text)?;
         let laws = carom::spec::parse_laws(text)?;
         let files = Files::new(name, text);
-        let seed = read.seed.unwrap_or(1);
+        let seed = read.seed.map_or(1, |s| s.0);
         let fluid = flow::fluid(read.fluid.as_ref())?;
         let flow = flow::flow(read.flow.as_ref(), &fluid, &files)?;
         let dynamics = flow::dynamics(&read.forces, fluid)?;
@@ -99,6 +100,7 @@ impl Case {
         injection::distinct(read.wall.iter().map(|w| &w.value.name), "wall")?;
         let mut notes = Vec::new();
         let walls = read.wall.iter().map(|w| wall::read(w, &files, &mut notes)).collect::<Result<Vec<_>, _>>()?;
+        notes.extend(stl::left_out(read.wall.iter().filter_map(|w| w.value.stl.as_ref()), &files));
         let largest = injections.iter().map(|i| i.largest).fold(0.0, f64::max);
         wall::contradictions(&read.wall, &walls, largest)?;
         let behaviors = read
@@ -128,7 +130,7 @@ impl Case {
             behaviors,
             injections,
             settings,
-            trajectories: output.trajectories.map_or(TRAJECTORIES, |t| t.value),
+            trajectories: output.trajectories.map_or(TRAJECTORIES, |t| t.value.0),
             impacts: output.impacts.unwrap_or_default().0,
             fates: output.fates.unwrap_or_default().0,
             vtk: output.vtk.unwrap_or(true),
@@ -227,7 +229,7 @@ fn settings(read: &CaseText, seed: u64, behaviors: &[Behavior]) -> Result<Settin
                 .help("it must be positive, or 0 where no bounce counts as none"));
         }
     };
-    let max_steps = run.max_steps.as_ref().map_or(MAX_STEPS, |m| m.value.max(1));
+    let max_steps = run.max_steps.as_ref().map_or(MAX_STEPS, |m| m.value.0.max(1));
     Ok(Settings { tolerance, until: until.unwrap_or(f64::INFINITY), settle_height, max_steps, seed })
 }
 

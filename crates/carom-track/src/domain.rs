@@ -40,6 +40,11 @@ pub trait Domain: Sync {
         false
     }
 
+    /// Whether a piece lies where nothing is known of the fluid but what holds at the edge of what is.
+    fn is_beyond(&self, _here: Self::Here) -> bool {
+        false
+    }
+
     /// How long a step from `x` at `v` is worth trying, s: until about the end of the piece, or of what a step may span.
     fn longest(&self, _here: Self::Here, _x: Vec3, _v: Vec3) -> f64 {
         f64::INFINITY
@@ -145,6 +150,10 @@ impl Domain for Analytic {
     #[inline(always)]
     fn is_one_piece(&self) -> bool {
         self.flow.is_one_piece()
+    }
+
+    fn is_beyond(&self, here: Piece) -> bool {
+        matches!(&self.flow, Flow::Table(table) if table.is_outside(here))
     }
 
     #[inline]

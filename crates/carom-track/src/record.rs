@@ -208,4 +208,6 @@ pub trait Sink {
     fn end(&mut self, _end: &End) {}
     /// A particle was left where it was because its steps ran out.
     fn stalled(&mut self) {}
+    /// A particle is, for the first time, where nothing is known of the fluid: outside a table.
+    fn strayed(&mut self) {}
 }

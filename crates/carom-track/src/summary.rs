@@ -66,6 +66,9 @@ pub struct Summary {
     pub faces: Faces,
     /// Particles left where they were because their steps ran out; they count as airborne.
     pub stalled: u64,
+    /// Particles that began or went outside the table of the flow.
+    #[serde(default)]
+    pub strayed: u64,
 }
 
 impl Summary {
@@ -152,6 +155,7 @@ impl Summary {
         self.deposition.merge(&other.deposition);
         self.faces.merge(&other.faces);
         self.stalled += other.stalled;
+        self.strayed += other.strayed;
     }
 
     /// The text of `summary.json`.
@@ -187,6 +191,7 @@ impl Serialize for Report<'_> {
         map.serialize_entry("masses", &Masses(&s.fates))?;
         map.serialize_entry("walls", &Walls(&s.walls))?;
         map.serialize_entry("stalled", &s.stalled)?;
+        map.serialize_entry("outside_table", &s.strayed)?;
         map.serialize_entry("validity", &Doubts(&s.doubts().collect::<Vec<_>>()))?;
         map.end()
     }

@@ -160,13 +160,13 @@ impl LawError {
 
     /// What is wrong, in the words of a front.
     pub fn message_in(&self, words: &dyn Wording) -> String {
-        let message = self.problem.message(words);
+        let message = shortened(self.problem.message(words));
         self.within.as_ref().map_or(message.clone(), |within| format!("{within}: {message}"))
     }
 
     /// What would be right, in the words of a front.
     pub fn help_in(&self, words: &dyn Wording) -> Option<String> {
-        self.problem.help(words)
+        self.problem.help(words).map(shortened)
     }
 
     /// Message and remedy in a line, in the words of a front.
@@ -207,9 +207,12 @@ impl LawError {
 impl From<toml::de::Error> for LawError {
     fn from(e: toml::de::Error) -> Self {
         let message = e.message().trim().replace('\n', ", ");
-        unknown_key(&message).unwrap_or_else(|| Self::new(message)).at(e.span())
+        unknown_key(&message).or_else(|| plain::said(&message)).unwrap_or_else(|| Self::new(message)).at(e.span())
     }
 }
+
+#[cfg(feature = "toml")]
+mod plain;
 
 /// serde's "unknown field `a`, expected one of `b`, `c`", said as everything else here is.
 #[cfg(feature = "toml")]
@@ -225,16 +228,69 @@ pub fn did_you_mean<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a st
     nearest(wrong, candidates).map(|c| format!("did you mean {c}?"))
 }
 
+/// Characters of what was written that a message repeats, where nothing parts them.
+const LONG: usize = 60;
+/// Characters of a message.
+const LONGEST: usize = 2000;
+
+/// A message in which what somebody wrote without end is cut.
+fn shortened(message: String) -> String {
+    if message.len() <= LONG {
+        return message;
+    }
+    let mut short = String::with_capacity(message.len().min(LONGEST));
+    for (i, word) in message.split(' ').enumerate() {
+        if short.len() > LONGEST {
+            short.push('…');
+            break;
+        }
+        if i > 0 {
+            short.push(' ');
+        }
+        match word.char_indices().nth(LONG) {
+            // what is a little longer is left whole, such as a path
+            Some((end, _)) if word.chars().nth(LONG + LONG / 2).is_some() => {
+                short.push_str(&word[..end]);
+                short.push('…');
+                short.extend(word.chars().next_back().filter(|c| matches!(c, '\'' | '"' | ':' | ';' | ',')));
+            }
+            _ => short.push_str(word),
+        }
+    }
+    short
+}
+
 /// The candidate nearest to what was written, if one is near.
 #[cfg(feature = "std")]
 pub(crate) fn nearest<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    // what is as long as that is no slip of the pen
+    if wrong.len() > 100 {
+        return None;
+    }
     let lower = wrong.to_lowercase();
     candidates
         .into_iter()
         .map(|c| (strsim::damerau_levenshtein(&lower, &c.to_lowercase()), c))
-        .filter(|&(distance, c)| distance <= 1 + c.len().min(lower.len()) / 4)
+        .filter(|&(distance, c)| distance <= slips(c.chars().count().min(lower.chars().count())))
         .min()
         .map(|(_, c)| c)
+}
+
+/// Slips of the hand that leave a word of that length recognisable: more would make it another word.
+#[cfg(feature = "std")]
+fn slips(length: usize) -> usize {
+    if length < 6 { 1 } else { 2 }
+}
+
+/// The candidate, if no more than so many slips lie between.
+#[cfg(feature = "std")]
+pub(crate) fn nearest_within<'a>(wrong: &str, candidate: &'a str, slips: usize) -> Option<&'a str> {
+    (strsim::damerau_levenshtein(&wrong.to_lowercase(), &candidate.to_lowercase()) <= slips).then_some(candidate)
+}
+
+#[cfg(not(feature = "std"))]
+pub(crate) fn nearest_within<'a>(_: &str, _: &'a str, _: usize) -> Option<&'a str> {
+    None
 }
 
 #[cfg(not(feature = "std"))]

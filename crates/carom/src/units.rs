@@ -116,6 +116,8 @@ quantities! {
     Frequency, "frequency", [0, 0, -1, 0], "1/s", "100 Hz";
     /// Turbulent kinetic energy per mass, m²/s².
     SpecificEnergy, "specific energy", [2, 0, -2, 0], "m2/s2", "0.1 m2/s2";
+    /// Dissipation of turbulent kinetic energy per mass, m²/s³.
+    Dissipation, "dissipation rate", [2, 0, -3, 0], "m2/s3", "0.1 m2/s3";
     /// A pure number.
     Number, "number", [0, 0, 0, 0], "", "0.8";
 }

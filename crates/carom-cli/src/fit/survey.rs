@@ -29,8 +29,17 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         let names = args.survey.iter().map(|p| p.display().to_string()).collect::<Vec<_>>().join(", ");
         return Err(Failure::input(format!("{names}: no data; put NAME.csv beside an experiment NAME.toml")));
     }
+    for subject in &subjects {
+        crate::validate::tell_left_out(&subject.data.name, &subject.data.left_out);
+    }
     let found = survey(&subjects, &free, &library, &args.options(0))?;
+    if args.json && files.to_stdout() {
+        return Err(Failure::input("--json and --out - both go to standard output; keep one"));
+    }
     files.write(|| Ok(table(&found)?), || plot(&found))?;
+    if files.to_stdout() {
+        return Ok(());
+    }
     if args.json {
         return output::print_json(&found);
     }

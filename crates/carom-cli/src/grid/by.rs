@@ -1,9 +1,10 @@
 //! `--by`: one curve for each value of any flag.
 
-use super::over::{Swept, with_unit};
+use super::over::{Over, Swept, with_unit};
 use crate::failure::Failure;
 use crate::motion::ImpactArgs;
 use carom::error::did_you_mean;
+use carom::spec::Key;
 use clap::{Args as _, FromArgMatches as _};
 
 /// `diameter=10um,20um`: one curve for each value of a flag.
@@ -29,9 +30,52 @@ impl std::str::FromStr for By {
         let written: Vec<&str> = list.split(between).map(str::trim).filter(|v| !v.is_empty()).collect();
         let last = written.last().ok_or(form)?;
         let key = key.trim().trim_start_matches("--").replace('_', "-");
-        let shares_unit = Swept::ALL.iter().any(|q| q.flag() == key);
-        let values = written.iter().map(|v| if shares_unit { with_unit(v, last) } else { (*v).to_owned() }).collect();
+        let quantity = Swept::all().find(|q| q.flag() == key);
+        let mut values = Vec::new();
+        for value in &written {
+            match (value.split_once(".."), quantity) {
+                (Some((from, range)), Some(quantity)) => values.extend(steps(quantity, from, range)?),
+                (None, Some(_)) => values.push(with_unit(value, last)),
+                (_, None) => values.push((*value).to_owned()),
+            }
+        }
         Ok(Self { key, values })
+    }
+}
+
+impl By {
+    /// A curve for each point of a range: the second direction of a map.
+    pub fn along(over: &Over, points: &[f64]) -> Self {
+        let values = points.iter().map(|v| written(over.quantity, *v)).collect();
+        Self { key: over.quantity.flag().to_owned(), values }
+    }
+}
+
+/// Values of `from..to` or `from..to:count`.
+fn steps(quantity: Swept, from: &str, range: &str) -> Result<Vec<String>, String> {
+    const USUAL: usize = 5;
+    let (to, count) = match range.split_once(':') {
+        Some((to, count)) => {
+            let fits = |n: &usize| (2..=100).contains(n);
+            let count = count.trim().parse().ok().filter(fits);
+            (to, count.ok_or("after ':' the number of values is wanted, 2 to 100, such as 1..100um:5")?)
+        }
+        None => (range, USUAL),
+    };
+    let over = Over::between(quantity, from, to)?;
+    let rounded = |v: f64| carom_report::significant(v, 4).parse().unwrap_or(v);
+    let points = over.points(count, over.is_linear());
+    let last = points.len() - 1;
+    let points = points.into_iter().enumerate().map(|(i, v)| if i == 0 || i == last { v } else { rounded(v) });
+    Ok(points.map(|v| written(quantity, v)).collect())
+}
+
+/// A value as its flag takes it.
+fn written(quantity: Swept, value: f64) -> String {
+    match quantity {
+        // a bare number there is in degrees
+        Swept::Law(Key::RoughnessAngle) => format!("{value}rad"),
+        _ => value.to_string(),
     }
 }
 
@@ -64,6 +108,11 @@ mod tests {
         assert_eq!(by.values, ["adhesion-work,hertz-damping", "ea"]);
         let by: By = "diameter=10,20um".parse().expect("two diameters");
         assert_eq!(by.values, ["10um", "20um"]);
+        let by: By = "diameter=1..100um:3,1mm".parse().expect("a range and a value");
+        assert_eq!(by.values, ["0.000001", "0.00001", "0.0001", "1mm"]);
+        let by: By = "friction=0..0.4".parse().expect("a range from zero");
+        assert_eq!(by.values, ["0", "0.1", "0.2", "0.3", "0.4"]);
+        assert!("friction=0..0.4:1".parse::<By>().is_err_and(|e| e.contains("2 to 100")));
         let by: By = "diameter=lognormal(10um, 1.3),20um".parse().expect("a distribution and a diameter");
         assert_eq!(by.values, ["lognormal(10um, 1.3)", "20um"]);
         let mut args = ImpactArgs::default();

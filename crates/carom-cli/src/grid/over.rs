@@ -1,8 +1,10 @@
 //! `--over`: what runs, and between which ends.
 
-use crate::values;
+use crate::{law, values};
 use carom::error::did_you_mean;
 use carom::math;
+use carom::spec::{Key, LawSpec};
+use carom_report::Axis;
 
 /// What can be swept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -10,11 +12,20 @@ pub enum Swept {
     Speed,
     Diameter,
     Angle,
+    Spin,
+    /// A number of the law.
+    Law(Key),
 }
 
 impl Swept {
-    /// All that can run.
-    pub const ALL: [Self; 3] = [Self::Speed, Self::Diameter, Self::Angle];
+    /// What an impact has.
+    pub const ALL: [Self; 4] = [Self::Speed, Self::Diameter, Self::Angle, Self::Spin];
+
+    /// All that can run: what an impact has, and every number of a law.
+    pub fn all() -> impl Iterator<Item = Self> {
+        let takes = |key: &Key| LawSpec::default().set_number(*key, 0.5);
+        Self::ALL.into_iter().chain(Key::ALL.iter().copied().filter(takes).map(Self::Law))
+    }
 
     /// Its flag.
     pub fn flag(self) -> &'static str {
@@ -22,6 +33,8 @@ impl Swept {
             Self::Speed => "speed",
             Self::Diameter => "diameter",
             Self::Angle => "angle",
+            Self::Spin => "spin",
+            Self::Law(key) => law::flag(key),
         }
     }
 
@@ -31,6 +44,8 @@ impl Swept {
             Self::Speed => values::speed(text),
             Self::Diameter => values::diameter(text),
             Self::Angle => values::angle(text),
+            Self::Spin => values::spin(text),
+            Self::Law(key) => law::number(key, text),
         }
     }
 
@@ -40,6 +55,8 @@ impl Swept {
             Self::Speed => ("speed", "m/s"),
             Self::Diameter => ("diameter", "m"),
             Self::Angle => ("angle_deg", ""),
+            Self::Spin => ("spin", "rad/s"),
+            Self::Law(key) => (key.info().name, key.info().unit),
         }
     }
 }
@@ -53,6 +70,19 @@ pub struct Over {
     pub from: f64,
     /// The larger end.
     pub to: f64,
+    /// The unit of length it was given in.
+    pub unit: Option<LengthUnit>,
+}
+
+/// A unit of length, and what it is in metres.
+pub type LengthUnit = (&'static str, f64);
+
+/// The unit of length that a text ends in; none for a bare number, or a unit that nobody gives diameters in.
+pub fn length_unit(text: &str) -> Option<LengthUnit> {
+    const UNITS: [LengthUnit; 7] =
+        [("nm", 1e-9), ("um", 1e-6), ("µm", 1e-6), ("μm", 1e-6), ("mm", 1e-3), ("cm", 1e-2), ("m", 1.0)];
+    let given = text.trim();
+    UNITS.into_iter().find(|(unit, _)| given.strip_suffix(unit).is_some_and(|n| n.trim().parse::<f64>().is_ok()))
 }
 
 impl std::str::FromStr for Over {
@@ -60,18 +90,14 @@ impl std::str::FromStr for Over {
     fn from_str(text: &str) -> Result<Self, String> {
         let form = "a range is wanted, such as speed=0.1m/s..30m/s";
         let (name, range) = text.split_once('=').ok_or(form)?;
-        let names = Swept::ALL.map(Swept::flag);
-        let quantity = Swept::ALL.into_iter().find(|q| q.flag() == name.trim()).ok_or_else(|| {
-            let near = did_you_mean(name, names).map_or(String::new(), |n| format!("{n} "));
+        let name = name.trim().trim_start_matches("--").replace('_', "-");
+        let quantity = Swept::all().find(|q| q.flag() == name).ok_or_else(|| {
+            let names: Vec<&str> = Swept::all().map(Swept::flag).collect();
+            let near = did_you_mean(&name, names.iter().copied()).map_or(String::new(), |n| format!("{n} "));
             format!("unknown quantity '{name}'; {near}known are {}", names.join(", "))
         })?;
         let (from, to) = range.split_once("..").ok_or(form)?;
-        let (from, to) = (quantity.read(&with_unit(from, to))?, quantity.read(to)?);
-        if from < to {
-            Ok(Self { quantity, from, to })
-        } else {
-            Err(format!("the range '{range}' does not rise; {form}"))
-        }
+        Self::between(quantity, from, to)
     }
 }
 
@@ -87,6 +113,42 @@ pub fn with_unit(text: &str, next: &str) -> String {
 }
 
 impl Over {
+    /// From one text to another.
+    pub fn between(quantity: Swept, from: &str, to: &str) -> Result<Self, String> {
+        let (low, high) = (quantity.read(&with_unit(from, to))?, quantity.read(to)?);
+        if low < high {
+            let unit = length_unit(&with_unit(from, to)).filter(|_| quantity == Swept::Diameter);
+            Ok(Self { quantity, from: low, to: high, unit })
+        } else {
+            Err(format!("the range '{from}..{to}' does not rise; a range is wanted, such as speed=0.1m/s..30m/s"))
+        }
+    }
+
+    /// Whether it runs in equal steps: an angle does, and what has no ratio.
+    pub fn is_linear(&self) -> bool {
+        self.quantity == Swept::Angle || self.from <= 0.0
+    }
+
+    /// Its axis.
+    pub fn axis(&self, linear: bool) -> Axis {
+        let axis = match self.quantity {
+            Swept::Speed => Axis::new("speed", "m/s"),
+            Swept::Angle => Axis::new("angle of incidence from the surface", "°"),
+            Swept::Spin => Axis::new("spin", "rad/s"),
+            Swept::Law(key) => Axis::new(law::flag(key).replace('-', " "), key.info().unit),
+            Swept::Diameter => {
+                let (unit, factor) = match (self.from * self.to).sqrt() {
+                    d if d < 5e-7 => ("nm", 1e9),
+                    d if d < 1e-3 => ("µm", 1e6),
+                    _ => ("mm", 1e3),
+                };
+                Axis::scaled("diameter", unit, factor)
+            }
+        };
+        let axis = axis.range(self.from, self.to);
+        if linear { axis } else { axis.log() }
+    }
+
     /// The points: equal ratios, or equal steps; both ends exact.
     pub fn points(&self, count: usize, linear: bool) -> Vec<f64> {
         let last = count - 1;

@@ -109,6 +109,14 @@ fn read(key: Key, text: &str) -> Result<Given, String> {
     Ok(Given::One(Box::new(law)))
 }
 
+/// Reads a number of the law, SI units (an angle in rad).
+pub fn number(key: Key, text: &str) -> Result<f64, String> {
+    match read(key, text)? {
+        Given::One(law) => law.number(key).ok_or_else(|| format!("{text} is no number")),
+        Given::Drawn(_) => Err(format!("{text} is a distribution; a number is wanted")),
+    }
+}
+
 /// Takes over what the command line gives.
 pub fn update(flags: &mut Flags, matches: &ArgMatches) {
     for key in Key::ALL {

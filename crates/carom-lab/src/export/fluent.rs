@@ -8,7 +8,7 @@
 //! Speed and size are unknown to the condition. So each polynomial follows the mean, over the speeds and diameters of its cell in equal
 //! ratios, of the restitution of those impacts that rebound; and the type is `trap` where the law captures more than half of them.
 
-use super::deviation::Deviation;
+use super::deviation::{Deviation, FATE_OF_MOST};
 use super::sample::{Cell, Sample, by_angle, captured};
 use super::{Request, number, polynomial};
 use crate::error::LabError;
@@ -97,6 +97,7 @@ pub fn fit(
     let samples = cell.samples(law)?;
     let condition = condition(&samples, degree, unit);
     let deviation = Deviation::of(&samples, |s| condition.at(s.angle, unit));
+    deviation.within(&FATE_OF_MOST, cell)?;
     Ok((condition, captured(&samples), deviation))
 }
 

@@ -9,7 +9,7 @@
 //! The tangential part is the law's own where it is rolling or Walton's, e_t = 1 − min(f(1 + e) tan α, (2/7)(1 + β₀)), else a
 //! polynomial of the angle, the mean over speeds and diameters.
 
-use super::deviation::Deviation;
+use super::deviation::{Deviation, FORMULA};
 use super::polynomial::{self, Points};
 use super::sample::{Cell, Sample, by_angle, captured, components, rebound};
 use super::{Span, rounded};
@@ -163,7 +163,7 @@ impl Formula {
 /// The formula of a cell, the share that the law captures and the deviation.
 ///
 /// # Errors
-/// What the law refuses.
+/// What the law refuses, and a formula that is further from the law than its bounds.
 pub fn fit(law: &WallLaw, cell: &Cell, degree: usize) -> Result<(Formula, f64, Deviation), LabError> {
     let samples = cell.samples(law)?;
     let normal = match law.normal() {
@@ -178,6 +178,7 @@ pub fn fit(law: &WallLaw, cell: &Cell, degree: usize) -> Result<(Formula, f64, D
     };
     let formula = Formula { normal, tangent };
     let deviation = Deviation::of(&samples, |s| formula.at(s.diameter, s.speed, s.angle));
+    deviation.within(&FORMULA, cell)?;
     Ok((formula, captured(&samples), deviation))
 }
 
@@ -207,11 +208,12 @@ fn by_speed(law: &WallLaw, cell: &Cell, degree: usize) -> Result<Normal, LabErro
         }
         ends.push(end);
     }
-    let (basis, mut squares) = best(&ends, degree, captures);
-    let upper = squares.pop().filter(|_| !squares.is_empty());
-    let squared = squares.pop().or_else(|| upper.clone()).unwrap_or_default();
+    let (basis, squares) = best(&ends, degree, captures);
+    // a bin of a single diameter has one end
+    let mut squares = squares.into_iter();
+    let squared = squares.next().unwrap_or_default();
     let Span { from, to } = cell.diameters;
-    let upper = upper.filter(|u| *u != squared);
+    let upper = squares.next().filter(|u| *u != squared);
     let upper = upper.map(|squared| Upper { squared, from: rounded(from), per_ln: rounded(1.0 / math::ln(to / from)) });
     Ok(Normal::BySpeed { scale, captures, exhausted, basis, squared, upper })
 }

@@ -9,7 +9,7 @@
 //! weight for equal ratios of size and speed and equal steps of angle: e = Σ sin²α e/Σ sin²α, 1 − μ = Σ cos²α e_t/Σ cos²α. The type is
 //! `stick` where the law captures more than half of the impacts.
 
-use super::deviation::Deviation;
+use super::deviation::{Deviation, FATE_OF_MOST};
 use super::sample::{Cell, Sample, captured, components};
 use super::{Request, number, rounded};
 use crate::error::LabError;
@@ -68,6 +68,7 @@ pub fn fit(law: &WallLaw, cell: &Cell) -> Result<(Interaction, f64, Deviation), 
     let samples = cell.samples(law)?;
     let interaction = interaction(&samples);
     let deviation = Deviation::of(&samples, |_| interaction.at());
+    deviation.within(&FATE_OF_MOST, cell)?;
     Ok((interaction, captured(&samples), deviation))
 }
 

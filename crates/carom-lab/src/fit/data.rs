@@ -38,6 +38,8 @@ pub struct Data {
     pub name: String,
     /// What its comments say.
     pub said: String,
+    /// Columns that nothing reads.
+    pub left_out: Vec<String>,
     /// The impacts.
     pub points: Vec<Measurement>,
 }
@@ -71,7 +73,11 @@ impl Data {
         if let Some(row) = rows.rows.iter().find(|r| r.sigma.is_none()).filter(|_| with > 0) {
             return Err(wrong(row.wrong("no sigma here, but in other lines", "give one for each point, or none")));
         }
-        Ok(Self { name: name.to_owned(), said: rows.said, points })
+        let mut left_out = rows.left_out;
+        if rows.rows.iter().any(|r| r.impulse_ratio.is_some()) {
+            left_out.push("impulse_ratio (restitution and tangential_restitution are fitted)".to_owned());
+        }
+        Ok(Self { name: name.to_owned(), said: rows.said, left_out, points })
     }
 
     /// Whether every point has a standard uncertainty.
@@ -89,10 +95,6 @@ impl Data {
 }
 
 fn measurement(row: &Row, text: &str, diameter: Option<f64>) -> Result<Measurement, SpecError> {
-    if let Some(idle) = &row.impulse_ratio {
-        let help = "restitution and tangential_restitution are; leave the column out";
-        return Err(SpecError::new("impulse_ratio is not fitted").help(help).at(idle.span.clone()));
-    }
     let speed = row.speed.as_ref().ok_or_else(|| row.wrong("a point without a speed", "give one, in m/s"))?;
     let given = row.diameter.as_ref().map(|d| d.value).or(diameter);
     let diameter = given.ok_or_else(|| {

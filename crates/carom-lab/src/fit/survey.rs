@@ -68,7 +68,7 @@ pub fn read(path: &Path, diameter: Option<f64>) -> Result<Vec<Subject>, LabError
         let mut experiment = Experiment::from_toml(&stem, &text)?;
         let beside = path.with_extension("csv");
         if beside.exists() {
-            points::add(&mut experiment, &beside.display().to_string(), &read_file(&beside)?)?;
+            points::add(&mut experiment, &beside.display().to_string(), &points_file(&beside)?)?;
         }
         for panel in &experiment.panels {
             subjects.extend(of_panel(&experiment, panel, diameter)?);
@@ -80,7 +80,7 @@ pub fn read(path: &Path, diameter: Option<f64>) -> Result<Vec<Subject>, LabError
                 continue;
             }
             let spec = parse_named_law(&text, law).map_err(wrong)?;
-            let data = Data::from_csv(&beside.display().to_string(), &read_file(&beside)?, diameter)?;
+            let data = Data::from_csv(&beside.display().to_string(), &points_file(&beside)?, diameter)?;
             subjects.push(Subject { name: law.clone(), law: spec, data });
         }
     }
@@ -99,6 +99,11 @@ pub fn read(path: &Path, diameter: Option<f64>) -> Result<Vec<Subject>, LabError
 
 fn read_file(path: &Path) -> Result<String, LabError> {
     std::fs::read_to_string(path).map_err(|source| LabError::File { path: PathBuf::from(path), source })
+}
+
+fn points_file(path: &Path) -> Result<String, LabError> {
+    let bytes = std::fs::read(path).map_err(|source| LabError::File { path: PathBuf::from(path), source })?;
+    points::text(&bytes).map_err(|e| LabError::Points(format!("{}: {e}", path.display())))
 }
 
 /// A panel's measured restitution, with the law of its first curve.
@@ -128,7 +133,7 @@ fn of_panel(experiment: &Experiment, panel: &Panel, diameter: Option<f64>) -> Re
         });
     }
     let source = experiment.values_from().to_owned();
-    Ok(Some(Subject { data: Data { name: name.clone(), said: source, points }, name, law }))
+    Ok(Some(Subject { data: Data { name: name.clone(), said: source, left_out: Vec::new(), points }, name, law }))
 }
 
 /// Fits every subject. Friction is taken as 0 where a law has none.

@@ -1,12 +1,13 @@
-//! The CSV form of measured points, read once for experiments and fits: columns by name, values with their places.
+//! Measured points, read once for experiments and fits, from tables as people and programs write them ([`carom_table::sheet`]).
 //!
-//! Names are read leniently: upper or lower case, spaces or hyphens for `_`, and a unit in brackets after the name, which may be
-//! another than the SI unit (`diameter (um)`). Lines that begin with `#` and empty lines are passed over.
+//! Columns are known by the names people give them, with a unit behind the name, which may be another than the SI unit
+//! (`diameter (um)`). Other columns are left out and told. What a `carom sweep` writes is read too.
 
 use carom::error::did_you_mean;
 use carom::spec::At;
 use carom::units::{Angle, Length, Number, Speed};
 use carom::{SpecError, units::UnitError};
+use carom_table::{Heading, Sheet, SheetError, SheetProblem, clipped};
 use std::ops::Range;
 
 /// A line of points, as written: values in SI units, angles in degrees from the surface.
@@ -35,8 +36,10 @@ pub struct Row {
 /// A file of points.
 #[derive(Clone, Debug, Default)]
 pub struct Rows {
-    /// What the lines that begin with `#` say.
+    /// What the comments say.
     pub said: String,
+    /// Columns that nothing reads.
+    pub left_out: Vec<String>,
     /// The points.
     pub rows: Vec<Row>,
 }
@@ -44,10 +47,52 @@ pub struct Rows {
 const COLUMNS: [&str; 8] =
     ["speed", "restitution", "tangential_restitution", "impulse_ratio", "diameter", "angle", "sigma", "panel"];
 
+/// Other names of a column.
+const ALIASES: [(&str, &[&str]); 7] = [
+    (
+        "speed",
+        &[
+            "velocity",
+            "v",
+            "v_i",
+            "v_in",
+            "impact_speed",
+            "impact_velocity",
+            "incident_speed",
+            "incident_velocity",
+            "speed_in",
+            "velocity_in",
+        ],
+    ),
+    (
+        "restitution",
+        &["e", "cor", "e_n", "coefficient_of_restitution", "restitution_coefficient", "normal_restitution"],
+    ),
+    ("tangential_restitution", &["e_t"]),
+    ("impulse_ratio", &["mu"]),
+    ("diameter", &["d", "d_p", "dp", "particle_diameter", "sphere_diameter"]),
+    ("angle", &["angle_deg", "impact_angle"]),
+    ("sigma", &["uncertainty", "standard_uncertainty"]),
+];
+
 /// A column: which, and the factor that brings its values to the units used here.
 struct Column {
     name: &'static str,
     factor: f64,
+}
+
+/// Which column a name stands for.
+fn column(name: &str) -> Option<&'static str> {
+    let alias = || ALIASES.iter().find(|(_, others)| others.contains(&name)).map(|(column, _)| *column);
+    COLUMNS.into_iter().find(|c| *c == name).or_else(alias)
+}
+
+/// The text of a file of points: UTF-8, UTF-16 with its mark, or Latin-1.
+///
+/// # Errors
+/// A file that is no text.
+pub fn text(bytes: &[u8]) -> Result<String, SpecError> {
+    carom_table::sheet::text(bytes).map(std::borrow::Cow::into_owned).map_err(SpecError::new)
 }
 
 /// Reads a text.
@@ -64,94 +109,84 @@ struct Column {
 /// # Ok::<(), carom::SpecError>(())
 /// ```
 pub fn read(text: &str) -> Result<Rows, SpecError> {
-    let said: Vec<&str> = text.lines().filter_map(|l| l.strip_prefix('#')).map(str::trim).collect();
-    let mut reader = csv::ReaderBuilder::new()
-        .comment(Some(b'#'))
-        .trim(csv::Trim::All)
-        .flexible(true)
-        .has_headers(false)
-        .from_reader(text.as_bytes());
-    let mut columns: Vec<Column> = Vec::new();
+    // places are of the text as given
+    let mark = text.len() - text.trim_start_matches('\u{feff}').len();
+    let text = &text[mark..];
+    let shifted = |mut e: SpecError| {
+        e.span = e.span.map(|s| s.start + mark..s.end + mark);
+        e
+    };
+    read_bare(text).map_err(shifted).map(|mut rows| {
+        rows.rows.iter_mut().filter(|_| mark > 0).for_each(|row| row.shift(mark));
+        rows
+    })
+}
+
+fn read_bare(text: &str) -> Result<Rows, SpecError> {
+    let sheet = Sheet::read(text.as_bytes(), &|name| column(name).is_some()).map_err(wrong)?;
+    let columns = columns(sheet.headings())?;
     let mut rows = Vec::new();
-    let mut record = csv::StringRecord::new();
-    while reader.read_record(&mut record).map_err(|e| SpecError::new(e.to_string()))? {
-        let start = record.position().map_or(0, |p| usize::try_from(p.byte()).unwrap_or(0));
-        let places = Places::new(text, start, record.len());
-        if record.iter().all(str::is_empty) {
-            continue;
-        }
-        if columns.is_empty() {
-            columns = headers(&record, &places)?;
-        } else {
-            rows.push(row(&record, &columns, &places)?);
-        }
+    let mut reader = sheet.rows();
+    while reader.next_row().map_err(wrong)?.is_some() {
+        rows.push(row(&mut reader, &columns)?);
     }
-    Ok(Rows { said: said.join(" "), rows })
+    let idle = sheet.headings().iter().zip(&columns).filter(|(h, c)| c.is_none() && !h.written.is_empty());
+    let left_out = idle.map(|(h, _)| clipped(&h.written).into_owned()).collect();
+    Ok(Rows { said: sheet.comments().collect::<Vec<_>>().join(" "), left_out, rows })
 }
 
-/// Where the fields of a line stand.
-struct Places {
-    line: Range<usize>,
-    fields: Vec<Range<usize>>,
+fn wrong(error: SheetError) -> SpecError {
+    let help = match &error.problem {
+        SheetProblem::Fields { .. } => "give one for each column; an empty one where there is none",
+        SheetProblem::Empty | SheetProblem::NoNames => {
+            "a line of column names such as speed,restitution and a line for each impact are wanted"
+        }
+        SheetProblem::Number { .. } => "a number is wanted",
+        _ => "",
+    };
+    let message = match &error.problem {
+        SheetProblem::Number { column, text } => format!("{} '{}'", Heading::of(column).name, clipped(text)),
+        SheetProblem::Empty => "no points".to_owned(),
+        other => other.to_string(),
+    };
+    let error = SpecError::new(message).at(Some(error.place));
+    if help.is_empty() { error } else { error.help(help) }
 }
 
-impl Places {
-    /// A record begins at or after `start`: comments and empty lines may come before it.
-    fn new(text: &str, start: usize, count: usize) -> Self {
-        let mut from = start.min(text.len());
-        let mut line = "";
-        for candidate in text.get(from..).unwrap_or_default().split_inclusive('\n') {
-            let bare = candidate.trim();
-            if !bare.is_empty() && !bare.starts_with('#') {
-                line = candidate.trim_end();
-                break;
+/// What each column is; none for one that nothing reads.
+fn columns(headings: &[Heading]) -> Result<Vec<Option<Column>>, SpecError> {
+    let mut columns: Vec<Option<Column>> = Vec::with_capacity(headings.len());
+    for heading in headings {
+        let place = Some(heading.place.clone());
+        let Some(name) = column(&heading.name) else {
+            // what is nearly a name that is known is a slip, not a column of another kind
+            if let Some(near) = did_you_mean(&heading.name, COLUMNS) {
+                let help = format!("{near} known are {}; the first line names the columns", COLUMNS.join(", "));
+                return Err(SpecError::new(format!("unknown column '{}'", clipped(&heading.written)))
+                    .help(help)
+                    .at(place));
             }
-            from += candidate.len();
+            columns.push(None);
+            continue;
+        };
+        if columns.iter().flatten().any(|c| c.name == name) {
+            return Err(SpecError::new(format!("a second column {name}")).help("keep one").at(place));
         }
-        let mut fields = Vec::with_capacity(count);
-        let mut at = from;
-        for field in line.split(',') {
-            let indent = field.len() - field.trim_start().len();
-            fields.push(at + indent..at + indent + field.trim().len());
-            at += field.len() + 1;
-        }
-        // quoted commas: the line is place enough
-        if fields.len() != count {
-            fields = vec![from..from + line.len(); count];
-        }
-        Self { line: from..from + line.len(), fields }
+        let factor = match &heading.unit {
+            None => 1.0,
+            Some(unit) => factor(name, unit)
+                .map_err(|e| SpecError::new(format!("column '{}': {e}", clipped(&heading.written))).at(place))?,
+        };
+        columns.push(Some(Column { name, factor }));
     }
-}
-
-fn headers(record: &csv::StringRecord, places: &Places) -> Result<Vec<Column>, SpecError> {
-    let mut columns: Vec<Column> = Vec::with_capacity(record.len());
-    for (written, place) in record.iter().zip(&places.fields) {
-        let column = header(written).map_err(|e| e.at(Some(place.clone())))?;
-        if columns.iter().any(|c| c.name == column.name) {
-            let error = SpecError::new(format!("a second column {}", column.name)).help("keep one");
-            return Err(error.at(Some(place.clone())));
-        }
-        columns.push(column);
+    if columns.iter().all(Option::is_none) {
+        let all: Vec<_> = headings.iter().map(|h| format!("'{}'", clipped(&h.written))).take(20).collect();
+        let place = headings.first().map(|h| h.place.clone());
+        return Err(SpecError::new(format!("no column is known among {}", all.join(", ")))
+            .help(format!("known are {}; a line names the columns", COLUMNS.join(", ")))
+            .at(place));
     }
     Ok(columns)
-}
-
-fn header(written: &str) -> Result<Column, SpecError> {
-    let (name, unit) = match written.trim_start_matches('\u{feff}').split_once('(') {
-        Some((name, unit)) => (name, Some(unit.trim_end_matches(')').trim())),
-        None => (written.trim_start_matches('\u{feff}'), None),
-    };
-    let wanted = name.trim().to_lowercase().replace([' ', '-'], "_");
-    let Some(name) = COLUMNS.into_iter().find(|c| *c == wanted) else {
-        let near = did_you_mean(&wanted, COLUMNS).map_or(String::new(), |n| format!("{n} "));
-        return Err(SpecError::new(format!("unknown column '{written}'"))
-            .help(format!("{near}known are {}; the first line names the columns", COLUMNS.join(", "))));
-    };
-    let factor = match unit.filter(|u| !u.is_empty()) {
-        None => 1.0,
-        Some(unit) => factor(name, unit).map_err(|e| SpecError::new(format!("column '{written}': {e}")))?,
-    };
-    Ok(Column { name, factor })
 }
 
 /// What brings a value in `unit` to the column's own unit.
@@ -166,25 +201,18 @@ fn factor(name: &str, unit: &str) -> Result<f64, UnitError> {
     })
 }
 
-fn row(record: &csv::StringRecord, columns: &[Column], places: &Places) -> Result<Row, SpecError> {
-    if record.len() != columns.len() {
-        return Err(SpecError::new(format!("{} values under {} columns", record.len(), columns.len()))
-            .help("give one for each column; an empty one where there is none")
-            .at(Some(places.line.clone())));
-    }
-    let mut row = Row { span: places.line.clone(), ..Row::default() };
-    for ((written, place), column) in record.iter().zip(&places.fields).zip(columns) {
-        if written.is_empty() {
-            continue;
-        }
+fn row(reader: &mut carom_table::sheet::Rows, columns: &[Option<Column>]) -> Result<Row, SpecError> {
+    let mut row = Row { span: reader.row().place.clone(), ..Row::default() };
+    for (index, column) in columns.iter().enumerate() {
+        let Some(column) = column else { continue };
+        let Some(field) = reader.row().fields.get(index).filter(|f| !f.text.is_empty()) else { continue };
+        let span = Some(field.place.clone());
         if column.name == "panel" {
-            row.panel = Some(At { value: written.to_owned(), span: Some(place.clone()) });
+            row.panel = Some(At { value: field.text.clone().into_owned(), span });
             continue;
         }
-        let value = written.parse::<f64>().ok().filter(|v| v.is_finite()).ok_or_else(|| {
-            SpecError::new(format!("{} '{written}'", column.name)).help("a number is wanted").at(Some(place.clone()))
-        })?;
-        let value = Some(At { value: value * column.factor, span: Some(place.clone()) });
+        let Some(value) = reader.number(index).map_err(wrong)? else { continue };
+        let value = Some(At { value: value * column.factor, span });
         match column.name {
             "speed" => row.speed = value,
             "restitution" => row.restitution = value,
@@ -200,6 +228,23 @@ fn row(record: &csv::StringRecord, columns: &[Column], places: &Places) -> Resul
 }
 
 impl Row {
+    /// Moves its places on.
+    fn shift(&mut self, by: usize) {
+        let on = |span: &mut Range<usize>| *span = span.start + by..span.end + by;
+        let numbers = [
+            &mut self.speed,
+            &mut self.restitution,
+            &mut self.tangential_restitution,
+            &mut self.impulse_ratio,
+            &mut self.diameter,
+            &mut self.angle,
+            &mut self.sigma,
+        ];
+        numbers.into_iter().flatten().filter_map(|at| at.span.as_mut()).for_each(on);
+        self.panel.iter_mut().filter_map(|at| at.span.as_mut()).for_each(on);
+        on(&mut self.span);
+    }
+
     /// An error at the line.
     pub fn wrong(&self, message: impl Into<String>, help: &str) -> SpecError {
         let error = SpecError::new(message).at(Some(self.span.clone()));

@@ -345,6 +345,28 @@ fn what_depends_on_speed_needs_the_speed() {
 }
 
 #[test]
+fn one_diameter_is_as_good_as_a_narrow_range() {
+    for normal in ["ea", "eap", "thornton-ning"] {
+        let law = law(&format!("sphere = \"quartz\"\nsurface = \"steel\"\nnormal = \"{normal}\"\nfriction = 0.3\n"));
+        for diameter in [5e-5, 1e-4, 2e-4] {
+            for degree in [3, 5, 7] {
+                let of = |to: f64| {
+                    let cell = request(&law, range((diameter, to), (10.0, 200.0)), 1, 1).cells()[0];
+                    formula::fit(&law, &cell, degree).expect("it answers").2
+                };
+                let (one, narrow) = (of(diameter), of(1.001 * diameter));
+                assert_eq!(one.wrong_fate, 0.0, "{normal} {diameter} {degree}");
+                assert!((one.velocity.rms - narrow.velocity.rms).abs() < 1e-4, "{one:?} {narrow:?}");
+            }
+            for target in [Target::StarCcm { degree: 5 }, Target::Comsol { degree: 5 }] {
+                let request = request(&law, range((diameter, diameter), (10.0, 200.0)), 1, 1);
+                assert!(export(&request, &target).expect("it answers").contains("wrong fate: 0 % of the impacts"));
+            }
+        }
+    }
+}
+
+#[test]
 fn smaller_bins_are_closer() {
     let damped = "normal = \"ea\"\nadhesion_damping = 0.4\nhertz_damping = 0.02";
     for (rest, four, one) in [("normal = \"eap\"", 0.009, 0.038), (damped, 0.022, 0.13)] {

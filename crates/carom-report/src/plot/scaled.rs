@@ -107,9 +107,9 @@ impl Scaled {
         ticks.into_iter().map(|t| (place(t.value).clamp(0.0, 1.0), t)).collect()
     }
 
-    /// Shown length of the axis, for equal aspect.
+    /// Length of the axis in the data's unit, for equal aspect: what is shown may be in another unit on the other axis.
     pub(super) fn span(&self) -> f64 {
-        self.high - self.low
+        (self.high - self.low) / self.factor
     }
 
     /// Whether equal steps are equal lengths.
@@ -117,10 +117,11 @@ impl Scaled {
         !self.log
     }
 
-    /// Widens the axis about its middle to a shown length.
+    /// Widens the axis about its middle to a length in the data's unit.
     pub(super) fn widen_to(&mut self, span: f64) {
         let middle = 0.5 * (self.low + self.high);
-        (self.low, self.high) = (middle - 0.5 * span, middle + 0.5 * span);
+        let half = 0.5 * span * self.factor;
+        (self.low, self.high) = (middle - half, middle + half);
     }
 }
 

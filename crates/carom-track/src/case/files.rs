@@ -31,6 +31,9 @@ impl Fingerprint {
     }
 }
 
+/// Largest file read, bytes; one without blocks may claim any size.
+const LARGEST: u64 = 8 << 30;
+
 /// Reads the files that a case names, beside it, and takes them into its fingerprint.
 pub(super) struct Files<'a> {
     folder: &'a Path,
@@ -46,8 +49,12 @@ impl<'a> Files<'a> {
     /// What is in a file; not in what may never end, such as a device or a pipe.
     pub fn read(&self, name: &str) -> std::io::Result<Vec<u8>> {
         let path = self.folder.join(name);
-        if !std::fs::metadata(&path)?.is_file() {
+        let about = std::fs::metadata(&path)?;
+        if !about.is_file() {
             return Err(std::io::Error::other("is not a regular file"));
+        }
+        if about.len() > LARGEST {
+            return Err(std::io::Error::other("is larger than 8 GiB, which is more than is held in memory"));
         }
         let bytes = std::fs::read(path)?;
         self.fingerprint.set(self.fingerprint.get().with(&bytes));

@@ -4,10 +4,11 @@ use super::check::{needed, placed, unknown, word, wrong};
 use super::files::Files;
 use super::text::{FlowText, FluidText, ForcesText, Si};
 use crate::dynamics::Dynamics;
-use crate::flow::{Channel, Flow, Fluid, Pipe, Profile, RoundJet, SlotJet, Stagnation, Symmetry, Table};
+use crate::flow::{Channel, Flow, Fluid, Named, Pipe, Profile, RoundJet, SlotJet, Stagnation, Symmetry, Table};
 use crate::force::{Drag, Forces, Life, NearWall, RandomWalk, Slip};
 use carom::SpecError;
 use carom::spec::At;
+use carom_table::quoted;
 
 const ATMOSPHERE: f64 = 101_325.0;
 
@@ -35,6 +36,7 @@ pub(super) fn fluid(text: Option<&At<FluidText>>) -> Result<Fluid, SpecError> {
 }
 
 const KINDS: [&str; 8] = ["still", "uniform", "channel", "pipe", "stagnation", "slot-jet", "round-jet", "table"];
+const COLUMNS: [&str; 9] = ["x", "y", "z", "u", "v", "w", "k", "epsilon", "omega"];
 const PROFILES: [(&str, Profile); 3] =
     [("plug", Profile::Plug), ("laminar", Profile::Laminar), ("turbulent", Profile::Turbulent)];
 
@@ -80,10 +82,21 @@ pub(super) fn flow(text: Option<&At<FlowText>>, fluid: &Fluid, files: &Files) ->
             let file = needed(&text.file, text, "file", &whose)?;
             let failed = |e: &dyn std::fmt::Display| placed(file, format!("{}: {e}", file.value));
             let bytes = files.read(&file.value).map_err(|e| failed(&e))?;
-            Flow::Table(Table::from_file(&file.value, &bytes).map_err(|e| failed(&e))?)
+            let named = named(text.columns.as_ref())?;
+            Flow::Table(Table::from_named(&file.value, &bytes, &named).map_err(|e| failed(&e))?)
         }
         _ => return Err(unknown(&text.kind, "kind of flow", KINDS.into_iter())),
     })
+}
+
+/// The columns of a table as the case names them.
+fn named(text: Option<&At<Named>>) -> Result<Named, SpecError> {
+    let Some(at) = text else { return Ok(Named::new()) };
+    match at.value.keys().find(|key| !COLUMNS.contains(&key.as_str())) {
+        Some(key) => Err(wrong(at, format!("columns has no {}", quoted(key)))
+            .help(format!("it names the columns of {}", COLUMNS.join(", ")))),
+        None => Ok(at.value.clone()),
+    }
 }
 
 /// A key that this kind of flow does not have is a mistake, not a decoration.
@@ -103,6 +116,7 @@ fn refuse_others(text: &At<FlowText>, kind: &str) -> Result<(), SpecError> {
         ("diameter", text.diameter.as_ref().map(|a| a.span.clone())),
         ("speed", text.speed.as_ref().map(|a| a.span.clone())),
         ("file", text.file.as_ref().map(|a| a.span.clone())),
+        ("columns", text.columns.as_ref().map(|a| a.span.clone())),
     ];
     let keys: &[&str] = match kind {
         "still" => &[],
@@ -112,7 +126,7 @@ fn refuse_others(text: &At<FlowText>, kind: &str) -> Result<(), SpecError> {
         "stagnation" => &["point", "normal", "strain_rate", "line"],
         "slot-jet" => &["width", "speed"],
         "round-jet" => &["diameter", "speed"],
-        "table" => &["file"],
+        "table" => &["file", "columns"],
         _ => return Ok(()),
     };
     for (key, span) in given {

@@ -134,10 +134,10 @@ fn amount(at: &At<InjectionText>) -> Result<Amount, SpecError> {
         (Some(count), None, None) => match &text.parcels {
             Some(p) => Err(wrong(p, "parcels with a count")
                 .help("a count injects single spheres; parcels carry a mass or a mass_flow")),
-            None => Ok(Amount::Count(count.value)),
+            None => Ok(Amount::Count(count.value.0)),
         },
-        (None, Some(mass), None) => Ok(Amount::Mass { total: mass.value.0, parcels: parcels()? }),
-        (None, None, Some(flow)) => Ok(Amount::MassFlow { rate: flow.value.0, parcels: parcels()? }),
+        (None, Some(mass), None) => Ok(Amount::Mass { total: mass.value.0, parcels: parcels()?.0 }),
+        (None, None, Some(flow)) => Ok(Amount::MassFlow { rate: flow.value.0, parcels: parcels()?.0 }),
         (None, None, None) => Ok(Amount::Count(1)),
         _ => Err(wrong(at, "more than one of count, mass and mass_flow").help("keep one")),
     }

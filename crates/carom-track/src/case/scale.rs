@@ -13,7 +13,9 @@ const LONG: f64 = 1e3;
 /// What to say of a case's lengths.
 pub(super) fn notes(flow: &Flow, walls: &[Wall], injections: &[Injected]) -> Vec<String> {
     let mut notes = far_walls(walls, injections);
+    notes.extend(small_walls(walls, injections));
     if let Flow::Table(table) = flow {
+        notes.extend(table.notes().iter().map(|note| format!("flow table: {note}")));
         notes.extend(injections.iter().filter_map(|i| outside(table.bounds(), i)));
     }
     notes
@@ -33,6 +35,22 @@ fn far_walls(walls: &[Wall], injections: &[Injected]) -> Vec<String> {
                 ": are its lengths meant in metres?"
             };
             format!("wall '{}' lies {distance:.3} m from everything injected{unit}", wall.name)
+        })
+        .collect()
+}
+
+/// Walls of triangles that are smaller than the spheres.
+fn small_walls(walls: &[Wall], injections: &[Injected]) -> Vec<String> {
+    let largest = injections.iter().map(|i| i.largest).fold(0.0, f64::max);
+    let size = |wall: &Wall| match &wall.shape {
+        Shape::Mesh(mesh) => Some((0..3).map(|c| mesh.bounds().max[c] - mesh.bounds().min[c]).fold(0.0, f64::max)),
+        _ => None,
+    };
+    let small = walls.iter().filter_map(|wall| Some((wall, size(wall)?))).filter(|(_, size)| *size < largest);
+    small
+        .map(|(wall, size)| {
+            let name = &wall.name;
+            format!("wall '{name}' is {size:.3e} m large, less than a sphere of {largest:.3e} m: is the unit of its file right?")
         })
         .collect()
 }

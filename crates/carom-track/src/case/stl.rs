@@ -7,6 +7,8 @@ use crate::geometry::stl::{self, Stl};
 use crate::geometry::{Mesh, Triangle};
 use carom::SpecError;
 use carom::spec::At;
+use carom_table::clipped;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Triangles from an STL file, text or binary, and a note of what they are; numbers are in metres unless a unit is given.
 pub(super) fn mesh(at: &At<StlText>, wall: &str, files: &Files) -> Result<(Mesh, String), SpecError> {
@@ -23,6 +25,32 @@ pub(super) fn mesh(at: &At<StlText>, wall: &str, files: &Files) -> Result<(Mesh,
         .ok_or_else(|| wrong(file, format!("{} has no triangle with an area", file.value)))?;
     let note = note(wall, &file.value, &read, &mesh);
     Ok((mesh, note))
+}
+
+/// Of files whose solids are chosen by name, the solids that no wall takes.
+pub(super) fn left_out<'a>(walls: impl Iterator<Item = &'a At<StlText>>, files: &Files) -> Vec<String> {
+    let mut chosen: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+    let mut whole = BTreeSet::new();
+    for wall in walls {
+        match &wall.value.solid {
+            Some(solid) => chosen.entry(&wall.value.file.value).or_default().push(&solid.value),
+            None => {
+                whole.insert(wall.value.file.value.as_str());
+            }
+        }
+    }
+    let mut notes = Vec::new();
+    for (file, solids) in chosen.into_iter().filter(|(file, _)| !whole.contains(file)) {
+        let Some(read) = files.read(file).ok().and_then(|bytes| stl::read(&bytes).ok()) else { continue };
+        let idle = read.solids.iter().filter(|s| !s.triangles.is_empty() && !solids.contains(&s.name.as_str()));
+        let names: Vec<String> = idle.map(|s| format!("'{}'", clipped(&s.name))).collect();
+        if !names.is_empty() {
+            let more = if names.len() > 8 { format!(" and {} more", names.len() - 8) } else { String::new() };
+            let first = names.iter().take(8).cloned().collect::<Vec<_>>().join(", ");
+            notes.push(format!("{file}: no wall takes its solids {first}{more}: they are not there"));
+        }
+    }
+    notes
 }
 
 /// The triangles of the solids of a name.

@@ -56,6 +56,8 @@ fn read(text: &str) -> Result<Case, CaseError> {
 fn a_good_case_reads_whole() {
     let case = read(GOOD).unwrap();
     assert_eq!(case.count(), 10);
+    let thousand = GOOD.replacen("count = 10\n", "count = 1e3\n", 1);
+    assert_eq!(read(&thousand).unwrap().count(), 1000);
     assert_eq!(case.title, "Copper in a channel");
     assert_eq!(case.domain.walls().len(), 3);
     assert_eq!((case.settings.until, case.settings.seed), (2.0, 7));
@@ -103,6 +105,12 @@ fn mistakes_are_refused_at_their_line() {
         &["standard deviation"],
     );
     refused("count = 10", "count = 10\nparcels = 3", &["parcels"]);
+    refused(
+        "count = 10",
+        "count = 1.5",
+        &["1.5 stands here", "a whole number, zero or more, such as 1000 or 1e3, is wanted"],
+    );
+    refused("count = 10", "count = -1", &["-1 stands here"]);
     refused("until = \"2 s\"", "until = \"-2 s\"", &["until"]);
     refused("until = \"2 s\"", "until = \"2 s\"\ntolerance = 0.5", &["tolerance"]);
     refused("until = \"2 s\"", "until = \"inf\"", &["inf"]);
@@ -206,4 +214,66 @@ fn the_random_walk_is_well_mixed_unless_told_otherwise() {
         read(&text).unwrap().dynamics.random_walk.unwrap()
     };
     assert!(walk("").drift && walk("drift = true").drift && !walk("drift = false").drift);
+}
+
+/// A file of two solids, each a wall of its own; what no wall takes, and a wall in the wrong unit, are told.
+#[test]
+fn solids_are_walls_of_their_own_and_what_is_left_out_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let facet = |x: i32| {
+        format!(
+            "facet normal 0 1 0\nouter loop\nvertex {x} 0 0\nvertex {x} 0 1\nvertex {} 0 0\nendloop\nendfacet\n",
+            x + 1
+        )
+    };
+    let stl = format!("solid left\n{}endsolid left\nSOLID Right\n{}ENDSOLID\n", facet(-1), facet(0));
+    std::fs::write(folder.path().join("w.stl"), stl).unwrap();
+    let wall = |name: &str, keys: &str| {
+        format!("[[wall]]\nname = \"{name}\"\nstl = {{ file = \"w.stl\"{keys} }}\nlaw = \"trap\"\n")
+    };
+    let read = |walls: &str| {
+        let rest =
+            "[[injection]]\ndensity = 1000\ndiameter = \"10 um\"\nposition = [0, 0.5, 0]\nvelocity = [0, -1, 0]\n";
+        let name = folder.path().join("case.toml");
+        Case::from_toml(&format!("{walls}{rest}[run]\nuntil = 1\n"), &name, Library::builtin()).map(|case| case.notes)
+    };
+    let told = |notes: &[String], what: &str| notes.iter().any(|n| n.contains(what));
+    let both = wall("a", ", solid = \"left\"") + &wall("b", ", solid = \"Right\"");
+    let notes = read(&both).unwrap();
+    assert!(told(&notes, "wall 'a': 1 triangle of w.stl, 2 solids in the file, 1 m x 0 m x 1 m"), "{notes:?}");
+    assert!(!told(&notes, "no wall takes"), "{notes:?}");
+    let notes = read(&wall("a", ", solid = \"left\"")).unwrap();
+    assert!(told(&notes, "w.stl: no wall takes its solids 'Right'"), "{notes:?}");
+    let notes = read(&wall("a", ", unit = \"1 um\"")).unwrap();
+    assert!(told(&notes, "wall 'a' is 2.000e-6 m large, less than a sphere"), "{notes:?}");
+    let error = read(&wall("a", ", solid = \"top\"")).unwrap_err().to_string();
+    assert!(error.contains("no triangles in a solid 'top'; the file has 'left', 'Right'"), "{error}");
+}
+
+#[test]
+fn columns_of_a_table_are_named_in_the_case() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("f.csv"), "Lage [mm];UMean_0;p\n0;1;0\n1000;3;0\n").unwrap();
+    let read = |columns: &str| {
+        let rest =
+            "[[injection]]\ndensity = 1000\ndiameter = \"10 um\"\nposition = [0.5, 0, 0]\nvelocity = \"fluid\"\n";
+        let flow = format!("[flow]\nkind = \"table\"\nfile = \"f.csv\"\n{columns}\n");
+        Case::from_toml(&format!("{flow}{rest}[run]\nuntil = 1\n"), &folder.path().join("c.toml"), Library::builtin())
+    };
+    let case = read("columns = { x = \"Lage [mm]\", u = \"UMean_0\" }").unwrap();
+    assert_eq!(case.particle(0).unwrap().velocity, [2.0, 0.0, 0.0]);
+    assert!(case.notes.contains(&"flow table: not used: p".to_owned()), "{:?}", case.notes);
+    for (columns, wanted) in [
+        ("", "no column of u, the velocity along x, among"),
+        (
+            "columns = { q = \"p\" }",
+            "columns has no \"q\"; it names the columns of x, y, z, u, v, w, k, epsilon, omega",
+        ),
+        ("columns = { u = \"nothing\" }", "no column \"nothing\"; there are \"Lage [mm]\""),
+        ("columns = { u = \"UMean_0\", k = \"p\" }", "k needs epsilon"),
+        ("columns = { u = \"UMean_0\", v = \"UMean_0\" }", "both"),
+    ] {
+        let error = read(columns).unwrap_err().to_string();
+        assert!(error.contains(wanted), "{error}");
+    }
 }

@@ -1,6 +1,7 @@
 //! The case file as written: what serde reads, with places, before anything is checked.
 
 use super::removal::RemovalText;
+use super::whole::Whole;
 use crate::tables::TableFormat;
 use carom::material::MaterialRef;
 use carom::spec::{At, CurveSpec};
@@ -14,7 +15,7 @@ use carom::units::{
 #[serde(deny_unknown_fields)]
 pub(super) struct CaseText {
     pub title: Option<String>,
-    pub seed: Option<u64>,
+    pub seed: Option<Whole>,
     pub fluid: Option<At<FluidText>>,
     pub flow: Option<At<FlowText>>,
     #[serde(default)]
@@ -59,6 +60,7 @@ pub(super) struct FlowText {
     pub diameter: Option<At<Length>>,
     pub speed: Option<At<Speed>>,
     pub file: Option<At<String>>,
+    pub columns: Option<At<crate::flow::Named>>,
 }
 
 #[derive(Debug, Default, serde::Deserialize)]
@@ -136,10 +138,10 @@ pub(super) struct InjectionText {
     pub density: Option<At<Density>>,
     pub diameter: At<SizeText>,
     pub diameter_kind: Option<At<String>>,
-    pub count: Option<At<u64>>,
+    pub count: Option<At<Whole>>,
     pub mass: Option<At<Mass>>,
     pub mass_flow: Option<At<MassFlow>>,
-    pub parcels: Option<At<u64>>,
+    pub parcels: Option<At<Whole>>,
     pub position: At<PlaceText>,
     pub velocity: At<VelocityText>,
     pub spin: Option<At<[AngularVelocity; 3]>>,
@@ -230,13 +232,13 @@ pub(super) struct RunText {
     pub until: Option<At<Time>>,
     pub tolerance: Option<At<Number>>,
     pub settle_height: Option<At<Length>>,
-    pub max_steps: Option<At<u64>>,
+    pub max_steps: Option<At<Whole>>,
 }
 
 #[derive(Debug, Default, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct OutputText {
-    pub trajectories: Option<At<u64>>,
+    pub trajectories: Option<At<Whole>>,
     pub impacts: Option<RowsText>,
     pub fates: Option<RowsText>,
     pub vtk: Option<bool>,

@@ -1,6 +1,5 @@
-//! Jets on a plate at y = 0, flowing down (−y) around x = 0 (slot) or around the y axis (round): an impactor's stage.
+//! A slot jet on a plate at y = 0, flowing down (−y) around x = 0: an impactor's stage.
 //!
-//! # Slot
 //! A plane free jet of width W and speed U in still fluid, inviscid and exact (free-streamline theory: Milne-Thomson,
 //! Theoretical Hydrodynamics, chapter XI). The complex velocity w = (u − iv)/U is given by where it is found,
 //!
@@ -12,15 +11,6 @@
 //! Spheres that start with the jet land from √Stk = √(2/π) = 0.80 on, half of them at about 0.91, Stk = 2 τ_p U/W; measured
 //! on rectangular impactors with a nozzle one or two W away: half at 0.77 (Hinds 1999, Aerosol Technology, table 5.4).
 //!
-//! # Round
-//! Stream function ψ = ½U r² g(y/δ), g(s) = 1 − (1 − s)³ up to s = 1, a plug beyond: v = −U g, u_r = ½U r g'/δ.
-//! Exactly divergence-free, the stagnation flow of strain rate a = 3U/(2δ) near the plate, joined smoothly to a plug.
-//! δ = 1.638 D gives a = 0.916 U/D, that of an inviscid free jet of diameter D (Liu, Gabour & Lienhard 1993, J. Heat
-//! Transfer 115, 99–105). Good within about r < D/2 only: u_r grows without bound with r, the vorticity is that of the
-//! joint, not of a shear layer, and every sphere meets the same approach, so an ideal impactor's efficiency is a step here,
-//! at √Stk = 0.52 (round impactors: 0.49, Hinds 1999, table 5.4).
-//! Use a table for what depends on r.
-//!
 //! ```
 //! use carom_track::flow::SlotJet;
 //! let jet = SlotJet::new(1e-3, 50.0)?;
@@ -30,7 +20,7 @@
 //! # Ok::<(), carom_track::flow::FlowError>(())
 //! ```
 
-use super::piece::{Exit, Layers, Piece, along, soonest};
+use super::piece::{Exit, Piece};
 use super::{FlowError, Local};
 use crate::geometry::Path;
 use carom::math::{angle, exp, ln};
@@ -230,98 +220,7 @@ fn inside(w: Complex) -> Complex {
     Complex(a / size, b / size)
 }
 
-/// Round jet on a plate.
-#[derive(Clone, Copy, Debug)]
-pub struct RoundJet {
-    speed: f64,
-    thickness: f64,
-}
-
-impl RoundJet {
-    /// δ/D that gives the strain rate of an inviscid free jet, 0.916 U/D.
-    const THICKNESS: f64 = 1.5 / 0.916;
-
-    /// A free jet of a diameter (m) and speed (m/s).
-    ///
-    /// # Errors
-    /// [`FlowError::Value`] for a diameter that is not positive, or a speed that is negative or not finite.
-    pub fn new(diameter: f64, speed: f64) -> Result<Self, FlowError> {
-        FlowError::positive("jet diameter", diameter)?;
-        check_speed(speed)?;
-        Ok(Self { speed, thickness: Self::THICKNESS * diameter })
-    }
-
-    /// The distance δ from the plate below which the jet is turned, m.
-    pub fn thickness(&self) -> f64 {
-        self.thickness
-    }
-
-    fn layers(&self) -> Layers {
-        Layers::new([0.0, self.thickness])
-    }
-
-    /// The piece of a point: below the plate, where the jet turns, or above.
-    pub fn piece(&self, x: [f64; 3]) -> Piece {
-        Piece::layer(self.layers().of(x[1]))
-    }
-
-    /// Where a path leaves a piece.
-    pub fn exit(&self, piece: Piece, path: &Path) -> Option<Exit> {
-        let (start, change) = along(path, 1);
-        self.layers().exit(piece.index(), start, &change)
-    }
-
-    /// Lower and upper edge of a piece.
-    pub(super) fn bounds(&self, piece: Piece) -> [f64; 2] {
-        self.layers().bounds(piece.index())
-    }
-
-    /// How soon a straight path at `v` leaves a piece, s.
-    pub fn soonest(&self, piece: Piece, x: [f64; 3], v: [f64; 3]) -> f64 {
-        soonest(x[1], v[1], self.bounds(piece))
-    }
-
-    /// 1 − s of s = y/δ: 1 below the plate, 0 above the turning.
-    #[inline(always)]
-    fn rest(&self, piece: Piece, y: f64) -> f64 {
-        match piece.index() {
-            0 => 1.0,
-            1 => 1.0 - y / self.thickness,
-            _ => 0.0,
-        }
-    }
-
-    /// Velocity at `x`, m/s.
-    #[inline(always)]
-    pub fn velocity(&self, x: [f64; 3]) -> [f64; 3] {
-        self.velocity_in(self.piece(x), x)
-    }
-
-    /// Velocity at `x` by the formula of a piece, m/s.
-    #[inline(always)]
-    pub fn velocity_in(&self, piece: Piece, x: [f64; 3]) -> [f64; 3] {
-        let rest = self.rest(piece, x[1]);
-        let radial = 1.5 * self.speed / self.thickness * rest * rest;
-        [radial * x[0], self.speed * (rest * rest * rest - 1.0), radial * x[2]]
-    }
-
-    /// Everything known at `x`.
-    pub fn sample(&self, x: [f64; 3]) -> Local {
-        self.sample_in(self.piece(x), x)
-    }
-
-    /// Everything known at `x`, by the formulas of a piece.
-    #[inline(always)]
-    pub fn sample_in(&self, piece: Piece, x: [f64; 3]) -> Local {
-        let rest = self.rest(piece, x[1]);
-        let radial = 1.5 * self.speed / self.thickness * rest * rest;
-        let turn = -3.0 * self.speed / (self.thickness * self.thickness) * rest;
-        let gradient = [[radial, turn * x[0], 0.0], [0.0, -2.0 * radial, 0.0], [0.0, turn * x[2], radial]];
-        plate(x, Local::steady(self.velocity_in(piece, x), gradient))
-    }
-}
-
-fn check_speed(speed: f64) -> Result<(), FlowError> {
+pub(super) fn check_speed(speed: f64) -> Result<(), FlowError> {
     if speed >= 0.0 && speed.is_finite() {
         Ok(())
     } else {
@@ -329,7 +228,7 @@ fn check_speed(speed: f64) -> Result<(), FlowError> {
     }
 }
 
-fn plate(x: [f64; 3], local: Local) -> Local {
+pub(super) fn plate(x: [f64; 3], local: Local) -> Local {
     Local { wall_distance: x[1].max(0.0), wall_normal: [0.0, 1.0, 0.0], ..local }
 }
 
@@ -381,12 +280,6 @@ mod tests {
         for x in [[1e-4, 2e-4, 0.0], [-4e-4, 1.2e-3, 1.0], [3e-3, 4e-4, 0.0], [1e-4, 3e-3, 0.0]] {
             check_gradient(|x| slot.velocity(x), slot.sample(x), x, 1e-8);
         }
-        let round = RoundJet::new(1e-3, 10.0).unwrap();
-        for x in [[1e-4, 2e-4, 3e-4], [-6e-4, 1e-3, 0.0], [1e-4, 3e-3, 0.0]] {
-            check_gradient(|x| round.velocity(x), round.sample(x), x, 1e-8);
-        }
-        assert!((round.sample([0.0; 3]).gradient[0][0] - 0.916 * 1e4).abs() < 1e-9);
-        assert_eq!(round.velocity([0.0, 0.01, 0.0]), [0.0, -10.0, 0.0]);
     }
 
     /// Whether a sphere of τ U/W = `stokes`/2 that leaves the slot at x = `start`·W reaches the plate beside the fluid that
@@ -425,9 +318,5 @@ mod tests {
         assert!(!slot(0.78, 0.0) && slot(0.82, 0.0));
         // half of the jet's spheres land at √Stk = 0.91
         assert!(!slot(0.88, 0.25) && slot(0.94, 0.25));
-        // a round jet's threshold, 2a τ = 1/4 with a = 0.916 U/D
-        let round = RoundJet::new(1.0, 1.0).unwrap();
-        let round = |root: f64| lands(|x| round.velocity(x), root * root, 0.0, 2.0);
-        assert!(!round(0.51) && round(0.54));
     }
 }

@@ -9,17 +9,19 @@ mod jet;
 mod piece;
 mod pipe;
 mod profile;
+mod round_jet;
 mod stagnation;
 mod table;
 
 pub use channel::Channel;
 pub use fluid::Fluid;
-pub use jet::{RoundJet, SlotJet};
+pub use jet::SlotJet;
 pub use piece::{Exit, Piece};
 pub use pipe::Pipe;
 pub use profile::Profile;
+pub use round_jet::RoundJet;
 pub use stagnation::{Stagnation, Symmetry};
-pub use table::{Table, TableError};
+pub use table::{Named, Table, TableError};
 
 use crate::geometry::Path;
 use crate::vector::Vec3;
@@ -159,10 +161,9 @@ impl Flow {
         match self {
             Self::Still | Self::Uniform { .. } | Self::Stagnation(_) => true,
             Self::Channel(f) => within(f.bounds(piece), 1),
-            Self::RoundJet(f) => within(f.bounds(piece), 1),
             Self::Table(f) => (0..3).all(|c| within(f.edges(piece, c), c)),
             // round: left to the look at the path
-            Self::Pipe(_) | Self::SlotJet(_) => false,
+            Self::Pipe(_) | Self::SlotJet(_) | Self::RoundJet(_) => false,
         }
     }
 
@@ -171,6 +172,7 @@ impl Flow {
     pub fn reach(&self, piece: Piece, x: [f64; 3]) -> f64 {
         match self {
             Self::SlotJet(f) => f.reach(piece, x),
+            Self::RoundJet(f) => f.reach(x),
             _ => f64::INFINITY,
         }
     }
@@ -181,9 +183,10 @@ impl Flow {
         match self {
             Self::Channel(f) => f.soonest(piece, x, v),
             Self::Pipe(f) => f.soonest(piece, x, v),
-            Self::RoundJet(f) => f.soonest(piece, x, v),
             Self::Table(f) => f.soonest(piece, x, v),
-            Self::Still | Self::Uniform { .. } | Self::Stagnation(_) | Self::SlotJet(_) => f64::INFINITY,
+            Self::Still | Self::Uniform { .. } | Self::Stagnation(_) | Self::SlotJet(_) | Self::RoundJet(_) => {
+                f64::INFINITY
+            }
         }
     }
 

@@ -5,6 +5,7 @@
 //! slope may, or a finer layer begins; no step spans one.
 
 use crate::geometry::{Bernstein, Path, first_contact};
+use crate::vector::Vec3;
 
 /// Which smooth piece of a flow: the index of a layer, or a cell's along each axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -122,4 +123,14 @@ pub(super) fn soonest(s: f64, v: f64, [low, high]: [f64; 2]) -> f64 {
 #[inline(always)]
 pub(super) fn along(path: &Path, axis: usize) -> (f64, Bernstein<6>) {
     (path.start[axis], path.component(axis))
+}
+
+/// How the squared distance from an axis changes along a path, from where it starts and its control points, both across the axis.
+pub(super) fn square_of_distance(start: Vec3, across: &[Vec3; 5]) -> Bernstein<11> {
+    let mut change = Bernstein([0.0; 11]);
+    for c in 0..3 {
+        let p = Bernstein([0.0, across[0][c], across[1][c], across[2][c], across[3][c], across[4][c]]);
+        change = change.plus(&p.times(&p.scaled(1.0, 2.0 * start[c])));
+    }
+    change
 }

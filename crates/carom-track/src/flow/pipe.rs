@@ -11,10 +11,10 @@
 //! # Ok::<(), carom_track::flow::FlowError>(())
 //! ```
 
-use super::piece::{Exit, Layers, Piece};
+use super::piece::{Exit, Layers, Piece, square_of_distance};
 use super::profile::{Section, Shape, WallTurbulence, wall_layers};
 use super::{FlowError, Fluid, Local, Profile};
-use crate::geometry::{Bernstein, Path};
+use crate::geometry::Path;
 use crate::vector::{Vec3, add, dot, norm, scale, sub, unit};
 use carom::math::ln;
 
@@ -124,11 +124,7 @@ impl Pipe {
         if stays_in && stays_out && r > low && r < high {
             return None;
         }
-        let mut change = Bernstein([0.0; 11]);
-        for c in 0..3 {
-            let p = Bernstein([0.0, across[0][c], across[1][c], across[2][c], across[3][c], across[4][c]]);
-            change = change.plus(&p.times(&p.scaled(1.0, 2.0 * start[c])));
-        }
+        let change = square_of_distance(start, &across);
         let squares = [if low < 0.0 { low } else { low * low }, high * high];
         let (down, up) = super::piece::leave(r * r, &change, squares);
         let down = down.map(|theta| Exit { theta, into: Piece::layer(piece.index() - 1) });

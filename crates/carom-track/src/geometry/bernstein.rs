@@ -86,7 +86,8 @@ impl<const N: usize> Bernstein<N> {
         Self(self.0.map(|c| c * factor + shift))
     }
 
-    fn split(&self) -> (Self, Self) {
+    /// Both halves.
+    pub fn split(&self) -> (Self, Self) {
         let (mut left, mut right) = (*self, *self);
         let mut c = self.0;
         for k in 0..N {

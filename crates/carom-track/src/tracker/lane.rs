@@ -23,6 +23,8 @@ pub(super) struct Lane {
     pub fitted: bool,
     /// Points of the path are wanted.
     pub trace: bool,
+    /// It has been where nothing is known of the fluid.
+    pub strayed: bool,
     /// What changes at random.
     pub chance: Chance,
 }
@@ -45,7 +47,7 @@ impl Lane {
     );
 
     pub const fn new(particle: Particle, trace: bool) -> Self {
-        Self { particle, impacts: 0, standing: 0, edges: 0, fitted: false, trace, chance: Chance::NONE }
+        Self { particle, impacts: 0, standing: 0, edges: 0, fitted: false, trace, strayed: false, chance: Chance::NONE }
     }
 
     /// Nothing about it needs a look when a step of it meets no wall.

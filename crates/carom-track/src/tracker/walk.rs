@@ -129,6 +129,7 @@ impl<D: Domain> Walk<'_, D> {
         let trace = sink.start(&particle);
         crew.lanes[l] = Lane::new(particle, trace);
         crew.here[l] = self.domain.enter(particle.time, particle.position);
+        self.stray(crew, l, sink);
         (crew.time[l], crew.stop[l], crew.steps[l]) = (particle.time, self.settings.until, 0);
         (crew.busy[l], crew.quiet[l]) = (true, mask(!trace && !self.has_chance()));
         if particle.time >= self.settings.until {
@@ -149,6 +150,14 @@ impl<D: Domain> Walk<'_, D> {
         }
         // all lanes at once cost little more than one
         crew.stale[l] = true;
+    }
+
+    /// Tells once of a sphere that is where nothing is known of the fluid.
+    fn stray<const W: usize>(&self, crew: &mut Crew<W, D::Here>, l: usize, sink: &mut dyn Sink) {
+        if !crew.lanes[l].strayed && self.domain.is_beyond(crew.here[l]) {
+            crew.lanes[l].strayed = true;
+            sink.strayed();
+        }
     }
 
     pub(super) fn per_step(&self) -> f64 {
@@ -288,6 +297,7 @@ impl<D: Domain> Walk<'_, D> {
         crew.time[l] += theta * h;
         crew.next[l] = crew.after(l, factor);
         crew.here[l] = into;
+        self.stray(crew, l, sink);
         meeting::put(crew, l, met.position, met.velocity, spin);
         let lane = &mut crew.lanes[l];
         lane.fitted = false;

@@ -1,7 +1,7 @@
 //! Materials by name and alias.
 
 use super::Material;
-use crate::error::{LawError, Problem, nearest};
+use crate::error::{LawError, Problem, nearest, nearest_within};
 use alloc::borrow::ToOwned;
 use alloc::collections::BTreeMap;
 use alloc::string::String;
@@ -14,6 +14,26 @@ pub(super) const EMBEDDED: &[(&str, &str)] = &[
     ("metals.toml", include_str!("../../data/materials/metals.toml")),
     ("polymers.toml", include_str!("../../data/materials/polymers.toml")),
     ("powders.toml", include_str!("../../data/materials/powders.toml")),
+];
+
+/// Words for a material of the library that are too loose to stand for it: they are suggested.
+const SYNONYMS: [(&str, &str); 16] = [
+    ("sand", "quartz"),
+    ("silica", "fused-silica"),
+    ("silica-glass", "fused-silica"),
+    ("silicon-dioxide", "quartz"),
+    ("sio2", "quartz"),
+    ("corundum", "aluminium-oxide"),
+    ("table-salt", "sodium-chloride"),
+    ("rock-salt", "sodium-chloride"),
+    ("plexiglass", "pmma"),
+    ("perspex", "pmma"),
+    ("polymethyl-methacrylate", "pmma"),
+    ("psl", "polystyrene"),
+    ("latex", "polystyrene"),
+    ("pe", "polyethylene"),
+    ("ldpe", "polyethylene"),
+    ("316l", "stainless-steel-316"),
 ];
 
 /// A set of materials. Names and aliases are matched without regard to case; `_` and a space count as `-`.
@@ -98,10 +118,21 @@ impl Library {
             if let Some(unread) = &self.unread {
                 return LawError::new(format!("the materials that come with carom cannot be read: {unread}"));
             }
-            let known = self.materials.keys().chain(self.aliases.keys()).map(String::as_str);
-            let near = nearest(&wanted, known).map(str::to_owned);
+            let same = SYNONYMS.iter().find(|(word, _)| *word == wanted).map(|(_, name)| *name);
+            let same = same.filter(|name| self.materials.contains_key(*name));
+            let near = same.or_else(|| self.misspelt(&wanted)).map(str::to_owned);
             Problem::UnknownMaterial { name: name.to_owned(), near }.into()
         })
+    }
+
+    /// The name that was misspelt. A short word a letter away is another material (PVC is not PVF, silica not silicon), so one slip
+    /// is allowed from four letters on, two from eight.
+    fn misspelt(&self, wanted: &str) -> Option<&str> {
+        let known = self.materials.keys().chain(self.aliases.keys()).map(String::as_str);
+        let length = |word: &str| word.chars().filter(|c| c.is_alphabetic()).count();
+        let near = nearest(wanted, known.filter(|k| length(k) >= 4))?;
+        let distant = || nearest_within(wanted, near, 1).is_none();
+        if length(wanted) < 4 || (length(wanted).min(length(near)) < 8 && distant()) { None } else { Some(near) }
     }
 
     /// All materials, by name.

@@ -137,3 +137,20 @@ fn inline_text_says_what_is_wrong() {
         assert!(e.contains(if part == "nu" { "poisson_ratio = 0.6" } else { part }), "{text}: {e}");
     }
 }
+
+#[test]
+fn another_material_is_no_misspelling() {
+    let said = |name: &str| Library::builtin().get(name).expect_err("unknown").to_string();
+    for (wrong, right) in [
+        ("coper", "copper"),
+        ("silcon", "silicon"),
+        ("polystirene", "polystyrene"),
+        ("sand", "quartz"),
+        ("Silica", "fused-silica"),
+    ] {
+        assert!(said(wrong).contains(&format!("did you mean {right}?")), "{}", said(wrong));
+    }
+    for word in ["wood", "soot", "PET", "PVF2", "zinc", "ash", "clay", "lime", "bronze", "cork", "chalk", "mannitol"] {
+        assert!(!said(word).contains("did you mean"), "{}", said(word));
+    }
+}

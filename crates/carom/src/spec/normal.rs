@@ -37,7 +37,11 @@ impl core::str::FromStr for Loss {
     type Err = LawError;
     fn from_str(text: &str) -> Result<Self, LawError> {
         let names: Vec<&str> = Self::ALL.iter().map(|l| l.name()).collect();
-        Self::ALL.iter().copied().find(|l| l.name() == text).ok_or_else(|| values::unknown_name("loss", text, &names))
+        Self::ALL
+            .iter()
+            .copied()
+            .find(|l| l.name().eq_ignore_ascii_case(text))
+            .ok_or_else(|| values::unknown_name("loss", text, &names))
     }
 }
 

@@ -67,10 +67,11 @@ macro_rules! names {
         impl core::str::FromStr for $type {
             type Err = $crate::error::LawError;
             fn from_str(text: &str) -> Result<Self, $crate::error::LawError> {
-                match text {
-                    $($name => Ok(Self::$variant),)*
-                    other => Err($crate::spec::values::unknown_name($what, other, Self::NAMES)),
-                }
+                // EAP is eap
+                let known = Self::ALL.iter().zip(Self::NAMES).find(|(_, name)| name.eq_ignore_ascii_case(text));
+                known.map(|(variant, _)| *variant).ok_or_else(|| {
+                    $crate::spec::values::unknown_name($what, text, Self::NAMES)
+                })
             }
         }
 

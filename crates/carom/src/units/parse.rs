@@ -72,12 +72,44 @@ const UNITS: &[(&str, f64, i32, Dimension, bool)] = &[
     ("bar", 1.0, 5, [-1, 1, -2, 0], true),
     ("atm", 101_325.0, 0, [-1, 1, -2, 0], false),
     ("psi", 6_894.757_293_168, 0, [-1, 1, -2, 0], false),
+    ("ksi", 6_894.757_293_168, 3, [-1, 1, -2, 0], false),
+    ("kpsi", 6_894.757_293_168, 3, [-1, 1, -2, 0], false),
+    ("Mpsi", 6_894.757_293_168, 6, [-1, 1, -2, 0], false),
+    ("Msi", 6_894.757_293_168, 6, [-1, 1, -2, 0], false),
+    ("Torr", 133.322_368_421_052_63, 0, [-1, 1, -2, 0], true),
+    ("mmHg", 133.322_387_415, 0, [-1, 1, -2, 0], false),
     ("erg", 1.0, -7, [2, 1, -2, 0], false),
     ("dyn", 1.0, -5, [1, 1, -2, 0], false),
     ("angstrom", 1.0, -10, [1, 0, 0, 0], false),
     ("Å", 1.0, -10, [1, 0, 0, 0], false),
+    ("kgf", 9.806_65, 0, [1, 1, -2, 0], false),
+    ("lbf", 4.448_221_615_260_5, 0, [1, 1, -2, 0], false),
+    ("lb", 0.453_592_37, 0, [0, 1, 0, 0], false),
+    ("t", 1.0, 3, [0, 1, 0, 0], false),
+    ("micron", 1.0, -6, [1, 0, 0, 0], false),
+    ("microns", 1.0, -6, [1, 0, 0, 0], false),
+    ("mil", 2.54, -5, [1, 0, 0, 0], false),
+    ("mils", 2.54, -5, [1, 0, 0, 0], false),
+    ("thou", 2.54, -5, [1, 0, 0, 0], false),
     ("in", 0.0254, 0, [1, 0, 0, 0], false),
+    ("inch", 0.0254, 0, [1, 0, 0, 0], false),
+    ("inches", 0.0254, 0, [1, 0, 0, 0], false),
     ("ft", 0.3048, 0, [1, 0, 0, 0], false),
+    ("foot", 0.3048, 0, [1, 0, 0, 0], false),
+    ("feet", 0.3048, 0, [1, 0, 0, 0], false),
+    ("cc", 1.0, -6, [3, 0, 0, 0], false),
+    ("l", 1.0, -3, [3, 0, 0, 0], true),
+    ("mph", 0.447_04, 0, [1, 0, -1, 0], false),
+    ("kph", 1000.0 / 3600.0, 0, [1, 0, -1, 0], false),
+    ("kmh", 1000.0 / 3600.0, 0, [1, 0, -1, 0], false),
+    ("fps", 0.3048, 0, [1, 0, -1, 0], false),
+    ("sec", 1.0, 0, [0, 0, 1, 0], false),
+    ("hr", 3600.0, 0, [0, 0, 1, 0], false),
+    ("rev", core::f64::consts::TAU, 0, NUMBER, false),
+    ("RPM", core::f64::consts::TAU / 60.0, 0, [0, 0, -1, 0], false),
+    ("degree", core::f64::consts::PI / 180.0, 0, NUMBER, false),
+    ("degrees", core::f64::consts::PI / 180.0, 0, NUMBER, false),
+    ("dyne", 1.0, -5, [1, 1, -2, 0], false),
 ];
 
 const PREFIXES: &[(&str, i32)] = &[
@@ -226,7 +258,7 @@ fn product(chars: &[char], mut i: usize) -> Result<Product, (usize, String)> {
 }
 
 fn unknown(name: &str) -> String {
-    let near = |u: &&str| name.len() > 1 && distance_is_one(u, name);
+    let near = |u: &&str| (2..40).contains(&name.len()) && distance_is_one(u, name);
     match UNITS.iter().map(|u| u.0).filter(near).min() {
         Some(u) => format!("unknown unit '{name}', did you mean '{u}'?"),
         None => format!("unknown unit '{name}'"),

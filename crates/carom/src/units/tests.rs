@@ -22,6 +22,20 @@ fn common_texts_are_exact() {
     assert_eq!("7200 1/h".parse(), Ok(Frequency(2.0)));
     assert_eq!("0.8".parse(), Ok(Number(0.8)));
     assert_eq!("2".parse(), Ok(Speed(2.0)));
+    // what people write
+    assert_eq!("10 ksi".parse::<Pressure>().map(|p| p.0.round()), Ok(68_947_573.0));
+    assert_eq!("18 Mpsi".parse::<Pressure>().map(|p| (p.0 / 1e6).round()), Ok(124_106.0));
+    assert_eq!("1 mil".parse(), Ok(Length(2.54e-5)));
+    assert_eq!("2 inch".parse(), Ok(Length(0.0508)));
+    assert_eq!("5 micron".parse(), Ok(Length(5e-6)));
+    assert_eq!("7.87 g/cc".parse(), Ok(Density(7870.0)));
+    assert_eq!("36 km/h".parse(), Ok(Speed(10.0)));
+    assert_eq!("100 mph".parse(), Ok(Speed(44.704)));
+    assert_eq!("30 dyn/cm".parse::<SurfaceEnergy>().map(|w| (w.0 * 1e12).round()), Ok(3e10));
+    assert_eq!("1 kgf/mm2".parse::<Pressure>().map(|p| p.0.round()), Ok(9_806_650.0));
+    assert_eq!("60 rpm".parse(), Ok(AngularVelocity(core::f64::consts::TAU)));
+    assert_eq!("1 rev/s".parse(), Ok(AngularVelocity(core::f64::consts::TAU)));
+    assert_eq!("180°".parse(), Ok(Angle(core::f64::consts::PI)));
     assert_eq!(("180 deg".parse::<Angle>().map(|a| a.0)), Ok(core::f64::consts::PI));
 }
 

@@ -1,7 +1,9 @@
 //! Velocity (and k, ε) on the nodes of a rectilinear grid, interpolated linearly along each axis.
 //!
-//! CSV (VTK too, see [`Table::from_vtk`] and [`Table::from_vtk_xml`]): a header with the columns `x, y, z, u, v, w` and optionally `k, epsilon`, SI units, one node a row, in any order,
-//! every node of the grid exactly once. A coordinate with one value, or left out, makes a table of fewer dimensions:
+//! Text (VTK too, see [`Table::from_vtk`] and [`Table::from_vtk_xml`]): columns of x, y, z, u, v, w and optionally k and ε (or ω), by the
+//! names and in the units that ParaView, Fluent, CFD-Post, STAR-CCM+, COMSOL and OpenFOAM write, or by those given ([`Named`]); SI units
+//! where none is named; one node a row, in any order, every node of the grid exactly once. What is left out is told ([`Table::notes`]).
+//! A coordinate with one value, or left out, makes a table of fewer dimensions:
 //! nothing varies along it. `v` and `w` left out are zero. Outside the grid the nearest value on its boundary holds.
 //! The gradient is the interpolant's own: it jumps from cell to cell. A linear interpolant of a solenoidal field is
 //! solenoidal only to first order in the spacing.
@@ -13,11 +15,15 @@
 //! # Ok::<(), carom_track::flow::TableError>(())
 //! ```
 
+mod arrays;
+mod columns;
 mod csv;
 mod error;
+mod holes;
 mod vtk;
 mod xml;
 
+pub use columns::Named;
 pub use error::TableError;
 
 use super::Local;
@@ -103,6 +109,9 @@ impl Axis {
     }
 }
 
+const MESH: &str =
+    "a mesh is no table: resample it (ParaView: Resample To Image) and save it as .vti, or as one file of one piece";
+
 const QUANTITIES: usize = 5;
 /// u, v, w, k, ε.
 type Node = [f64; QUANTITIES];
@@ -113,6 +122,7 @@ pub struct Table {
     axes: [Axis; 3],
     nodes: Vec<Node>,
     turbulent: bool,
+    notes: Vec<String>,
 }
 
 impl Table {
@@ -133,24 +143,41 @@ impl Table {
     /// # Errors
     /// [`TableError`], naming the line or node.
     pub fn from_file(name: &str, bytes: &[u8]) -> Result<Self, TableError> {
+        Self::from_named(name, bytes, &Named::new())
+    }
+
+    /// Reads what is in a file of that name, with its columns under the names given.
+    ///
+    /// # Errors
+    /// [`TableError`], naming the line or node.
+    pub fn from_named(name: &str, bytes: &[u8], named: &Named) -> Result<Self, TableError> {
         let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending).to_ascii_lowercase();
         match ending.as_str() {
+            "vtk" | "vtr" | "vti" if !named.is_empty() => {
+                Err(TableError::Kind("columns are of a text table; a VTK file's arrays have names of their own"))
+            }
             "vtk" => Self::from_vtk(bytes),
             "vtr" | "vti" => Self::from_vtk_xml(bytes),
-            _ => Self::from_csv(bytes),
+            "vtu" | "pvtu" | "vtp" | "vts" | "vtm" | "pvti" | "pvtr" => Err(TableError::Kind(MESH)),
+            _ => csv::read(bytes, named),
         }
     }
 
-    /// Reads CSV text.
+    /// Reads a text table.
     ///
     /// # Errors
     /// [`TableError`], naming the line, column or node.
-    pub fn from_csv(text: impl Read) -> Result<Self, TableError> {
-        csv::read(text)
+    pub fn from_csv(mut text: impl Read) -> Result<Self, TableError> {
+        let mut bytes = Vec::new();
+        let failed = |source| TableError::File { path: "flow table".to_owned(), source };
+        text.read_to_end(&mut bytes).map_err(failed)?;
+        csv::read(&bytes, &Named::new())
     }
 
-    /// Reads legacy VTK (`DATASET RECTILINEAR_GRID` or `STRUCTURED_POINTS`, ASCII or binary) with point data: a vector
-    /// array named `velocity` or `U`, or the only one there is, and optionally scalars `k` and `epsilon`, in any case.
+    /// Reads legacy VTK (`DATASET RECTILINEAR_GRID` or `STRUCTURED_POINTS`, ASCII or binary) with point data, or else cell data, whose
+    /// values are those of the cells' middles: a vector array named `velocity` or `U`, or the only one there is, and optionally scalars
+    /// `k` and `epsilon` (or `omega`), in any case. What `vtkValidPointMask` and `vtkGhostType` mark as not valid is no data: there the
+    /// nearest valid values hold.
     ///
     /// # Errors
     /// [`TableError`], naming the place.
@@ -159,7 +186,7 @@ impl Table {
     }
 
     /// Reads VTK XML (`RectilinearGrid` or `ImageData` of one piece; ASCII or binary, inline or appended, plain or compressed with
-    /// zlib) with point data as in [`Table::from_vtk`].
+    /// zlib) with point or cell data as in [`Table::from_vtk`].
     ///
     /// # Errors
     /// [`TableError`], naming the array.
@@ -169,7 +196,16 @@ impl Table {
 
     /// Axes strictly rising and not empty; nodes with z running fastest.
     fn new(axes: [Vec<f64>; 3], nodes: Vec<Node>, turbulent: bool) -> Self {
-        Self { axes: axes.map(Axis::new), nodes, turbulent }
+        Self { axes: axes.map(Axis::new), nodes, turbulent, notes: Vec::new() }
+    }
+
+    fn noting(self, notes: Vec<String>) -> Self {
+        Self { notes, ..self }
+    }
+
+    /// What of the file is left out or filled in.
+    pub fn notes(&self) -> &[String] {
+        &self.notes
     }
 
     /// Nodes along x, y and z.
@@ -239,6 +275,11 @@ impl Table {
             first = Exit::earlier(first, up.map(|theta| Exit { theta, into: next(1) }));
         }
         first
+    }
+
+    /// Whether a piece lies outside the grid, along an axis on which something may vary.
+    pub fn is_outside(&self, piece: Piece) -> bool {
+        self.axes.iter().zip(piece.0).any(|(a, i)| a.at.len() > 1 && (i == 0 || i as usize == a.at.len()))
     }
 
     /// Edges of a piece across an axis.

@@ -3,61 +3,44 @@
 //! Read here rather than by a library: the one there is for Rust (vtkio 0.6) rests on releases of its parsers that the
 //! compiler announces it will reject.
 
-use super::{Node, Table, TableError};
+use super::arrays::{Chosen, Described, cells, hidden, rising};
+use super::columns::Validity;
+use super::{Table, TableError};
+use carom_table::{clipped, quoted};
 
 pub(super) fn read(file: &[u8]) -> Result<Table, TableError> {
     let mut reader = Reader { file, at: 0, binary: false };
     let axes = reader.geometry()?;
     let size = axes.each_ref().map(Vec::len);
-    let arrays = reader.point_data(size[0] * size[1] * size[2])?;
-    table(axes, &arrays).map_err(|what| reader.error(what))
-}
-
-/// Point data.
-pub(super) struct Array {
-    pub name: String,
-    pub components: usize,
-    pub values: Vec<f64>,
-}
-
-/// Puts axes and arrays together: each array has a tuple for every node, x running fastest.
-pub(super) fn table(axes: [Vec<f64>; 3], arrays: &[Array]) -> Result<Table, String> {
-    let size = axes.each_ref().map(Vec::len);
-    let pick = |names: &[&str]| arrays.iter().find(|a| names.iter().any(|n| a.name.eq_ignore_ascii_case(n)));
-    let vectors: Vec<&Array> = arrays.iter().filter(|a| a.components == 3).collect();
-    let velocity = match (pick(&["velocity", "u"]).filter(|a| a.components == 3), vectors.as_slice()) {
-        (Some(named), _) => named,
-        (None, [only]) => only,
-        _ => return Err("no point vectors named velocity or U".to_owned()),
+    let [points, of_cells] = reader.data(size)?;
+    let describe = |a: &Array| Described { name: a.name.to_owned(), components: a.components };
+    let point_data: Vec<Described> = points.iter().map(describe).collect();
+    let cell_data: Vec<Described> = of_cells.iter().map(describe).collect();
+    let wrong = |reader: &Reader, what: String| reader.error(what);
+    let (chosen, by_cell) = match Chosen::of(&point_data, false) {
+        Ok(chosen) => (chosen, false),
+        Err(what) => (Chosen::of(&cell_data, true).map_err(|_| wrong(&reader, what))?, true),
     };
-    let scalar = |name| pick(&[name]).filter(|a| a.components == 1);
-    let (k, epsilon) = (scalar("k"), scalar("epsilon"));
-    if k.is_some() != epsilon.is_some() {
-        return Err("k and epsilon must both be there, or neither".to_owned());
+    let (described, arrays) = if by_cell { (cell_data, &of_cells) } else { (point_data, &points) };
+    let mut values = vec![None; arrays.len()];
+    for i in chosen.used() {
+        values[i] = Some(reader.decoded(&arrays[i])?);
     }
-    if let Some(bad) = [k, epsilon].into_iter().flatten().find(|a| a.values.iter().any(|v| *v < 0.0)) {
-        return Err(format!("{} is negative somewhere", bad.name));
-    }
-    let mut nodes: Vec<Node> = Vec::with_capacity(velocity.values.len() / 3);
-    for i in 0..size[0] {
-        for j in 0..size[1] {
-            for l in 0..size[2] {
-                let n = i + size[0] * (j + size[1] * l);
-                let of = |a: Option<&Array>| a.map_or(0.0, |a| a.values[n]);
-                let [u, v, w] = [0, 1, 2].map(|c| velocity.values[3 * n + c]);
-                nodes.push([u, v, w, of(k), of(epsilon)]);
-            }
-        }
-    }
-    Ok(Table::new(axes, nodes, k.is_some()))
+    let mask = of_cells.iter().filter(|_| !by_cell).find_map(|a| Some((a, Validity::of(a.name, true)?)));
+    let hidden = match mask {
+        Some((array, kind)) => Some(hidden(size, kind, &reader.decoded(array)?)),
+        None => None,
+    };
+    chosen.table(axes, &described, &values, hidden.as_deref()).map_err(|what| reader.error(what))
 }
 
-/// Coordinates that do not rise are refused.
-pub(super) fn rising(axes: &[Vec<f64>; 3]) -> Result<(), String> {
-    match axes.iter().flat_map(|a| a.windows(2)).find(|w| w[0] >= w[1]) {
-        Some(w) => Err(format!("coordinates must rise, but {} follows {}", w[1], w[0])),
-        None => Ok(()),
-    }
+/// Where an array of the file is.
+struct Array<'a> {
+    name: &'a str,
+    components: usize,
+    count: usize,
+    kind: &'a str,
+    at: usize,
 }
 
 struct Reader<'a> {
@@ -94,12 +77,12 @@ impl<'a> Reader<'a> {
         let words = self.words().unwrap_or_default();
         match words.split_first() {
             Some((first, rest)) if first.eq_ignore_ascii_case(keyword) && rest.len() >= count => Ok(rest.to_vec()),
-            _ => Err(self.error(format!("\"{}\" where {keyword} should be", words.join(" ")))),
+            _ => Err(self.error(format!("{} where {keyword} should be", quoted(&words.join(" "))))),
         }
     }
 
     fn parse<T: std::str::FromStr>(&self, word: &str) -> Result<T, TableError> {
-        word.parse().map_err(|_| self.error(format!("\"{word}\" is not a number")))
+        word.parse().map_err(|_| self.error(format!("{} is not a number", quoted(word))))
     }
 
     fn geometry(&mut self) -> Result<[Vec<f64>; 3], TableError> {
@@ -126,7 +109,12 @@ impl<'a> Reader<'a> {
         let axes = match kind.as_str() {
             "RECTILINEAR_GRID" => self.coordinates(size)?,
             "STRUCTURED_POINTS" => self.origin_and_spacing(size)?,
-            _ => return Err(self.error(format!("{kind} is not a rectilinear grid"))),
+            _ => {
+                return Err(self.error(format!(
+                    "{} is not a rectilinear grid: a mesh is resampled first (ParaView: Resample To Image)",
+                    clipped(&kind)
+                )));
+            }
         };
         rising(&axes).map_err(|what| self.error(what))?;
         Ok(axes)
@@ -140,7 +128,7 @@ impl<'a> Reader<'a> {
             if count != size[i] {
                 return Err(self.error(format!("{keyword} has {count} values, DIMENSIONS says {}", size[i])));
             }
-            axes[i] = self.values(count, words[1])?;
+            axes[i] = self.values(count, words[1], true)?;
             self.skip_metadata();
         }
         Ok(axes)
@@ -168,21 +156,46 @@ impl<'a> Reader<'a> {
         Ok([0, 1, 2].map(|i| (0..size[i]).map(|n| origin[i] + n as f64 * spacing[i]).collect()))
     }
 
-    /// Every array of the point data; cell data before it is refused, after it ignored.
-    fn point_data(&mut self, nodes: usize) -> Result<Vec<Array>, TableError> {
+    /// Where every array of the points and of the cells is.
+    fn data(&mut self, size: [usize; 3]) -> Result<[Vec<Array<'a>>; 2], TableError> {
+        let [nodes, cells] = [size, cells(size)].map(|s| s.iter().product::<usize>());
         self.skip_metadata();
-        let words = self.expect("POINT_DATA", 1)?;
-        if self.parse::<usize>(words[0])? != nodes {
-            return Err(self.error(format!("POINT_DATA for {} points on a grid of {nodes}", words[0])));
-        }
-        let mut arrays = Vec::new();
+        let (mut found, mut which) = ([Vec::new(), Vec::new()], None);
         while let Some(words) = self.words() {
-            match (words[0].to_ascii_uppercase().as_str(), words.get(1..).unwrap_or_default()) {
-                ("VECTORS" | "NORMALS", [name, kind]) => arrays.push(self.array(name, 3, nodes, kind)?),
+            let keyword = words[0].to_ascii_uppercase();
+            let rest = words.get(1..).unwrap_or_default();
+            match (keyword.as_str(), rest) {
+                ("POINT_DATA" | "CELL_DATA", [count, ..]) => {
+                    let of_cells = keyword == "CELL_DATA";
+                    let (what, wanted) = if of_cells { ("cells", cells) } else { ("points", nodes) };
+                    if self.parse::<usize>(count)? != wanted {
+                        let count = clipped(count);
+                        return Err(self.error(format!("{keyword} for {count} {what} on a grid of {wanted}")));
+                    }
+                    which = Some((usize::from(of_cells), wanted));
+                    continue;
+                }
+                ("METADATA", _) => {
+                    while self.line().is_some_and(|l| !l.is_empty()) {}
+                    continue;
+                }
+                _ => {}
+            }
+            // a field before any data is of the file as a whole
+            let (place, tuples) = match (which, keyword.as_str()) {
+                (Some(which), _) => which,
+                (None, "FIELD") => (2, 0),
+                (None, _) => {
+                    return Err(self.error(format!("{} where POINT_DATA should be", quoted(&words.join(" ")))));
+                }
+            };
+            let mut arrays = Vec::new();
+            match (keyword.as_str(), rest) {
+                ("VECTORS" | "NORMALS", [name, kind]) => arrays.push(self.array(name, 3, tuples, kind)?),
                 ("SCALARS", [name, kind, rest @ ..]) => {
                     let components = rest.first().map_or(Ok(1), |n| self.parse(n))?;
                     self.expect("LOOKUP_TABLE", 1)?;
-                    arrays.push(self.array(name, components, nodes, kind)?);
+                    arrays.push(self.array(name, components, tuples, kind)?);
                 }
                 ("FIELD", [_, count]) => {
                     for _ in 0..self.parse::<usize>(count)? {
@@ -195,18 +208,37 @@ impl<'a> Reader<'a> {
                         arrays.push(self.array(name, components, tuples, kind)?);
                     }
                 }
-                ("METADATA", _) => while self.line().is_some_and(|l| !l.is_empty()) {},
-                ("CELL_DATA", _) => break,
-                (other, _) => return Err(self.error(format!("\"{other}\" is not known in point data"))),
+                (other, _) => return Err(self.error(format!("{} is not known in point data", quoted(other)))),
+            }
+            arrays.retain(|a| tuples.checked_mul(a.components) == Some(a.count));
+            if let Some(found) = found.get_mut(place) {
+                found.extend(arrays);
             }
         }
-        arrays.retain(|a| a.values.len() == nodes * a.components);
-        Ok(arrays)
+        if which.is_none() {
+            return Err(self.error("the file ends where POINT_DATA should be"));
+        }
+        Ok(found)
     }
 
-    fn array(&mut self, name: &str, components: usize, tuples: usize, kind: &str) -> Result<Array, TableError> {
+    /// An array from here on, passed over.
+    fn array(
+        &mut self,
+        name: &'a str,
+        components: usize,
+        tuples: usize,
+        kind: &'a str,
+    ) -> Result<Array<'a>, TableError> {
         let count = components.checked_mul(tuples).ok_or_else(|| self.error("an array too large"))?;
-        Ok(Array { name: name.to_owned(), components, values: self.values(count, kind)? })
+        let array = Array { name, components, count, kind, at: self.at };
+        self.values(count, kind, false)?;
+        Ok(array)
+    }
+
+    /// The values of an array.
+    fn decoded(&mut self, array: &Array) -> Result<Vec<f64>, TableError> {
+        self.at = array.at;
+        self.values(array.count, array.kind, true)
     }
 
     /// Blocks that newer versions put after arrays, up to an empty line.
@@ -223,122 +255,61 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// `count` finite numbers of a VTK type; binary ones are big-endian.
-    fn values(&mut self, count: usize, kind: &str) -> Result<Vec<f64>, TableError> {
-        if count > self.file.len() - self.at {
+    /// `count` numbers of a VTK type, kept or passed over; binary ones are big-endian.
+    fn values(&mut self, count: usize, kind: &str, keep: bool) -> Result<Vec<f64>, TableError> {
+        // in binary files, eight bits may be a byte
+        if count / 8 > self.file.len() - self.at {
             return Err(self.error(format!("the file ends before {count} values")));
         }
-        let values = if self.binary { self.binary_values(count, kind)? } else { self.ascii_values(count)? };
-        match values.iter().find(|v| !v.is_finite()) {
-            Some(v) => Err(self.error(format!("{v} among the values"))),
-            None => Ok(values),
-        }
+        if self.binary { self.binary_values(count, kind, keep) } else { self.ascii_values(count, keep) }
     }
 
-    fn ascii_values(&mut self, count: usize) -> Result<Vec<f64>, TableError> {
-        let mut values = Vec::with_capacity(count);
-        while values.len() < count {
+    fn ascii_values(&mut self, count: usize, keep: bool) -> Result<Vec<f64>, TableError> {
+        let mut values = Vec::new();
+        let mut met = 0;
+        while met < count {
             let Some(words) = self.words() else {
-                return Err(self.error(format!("the file ends after {} of {count} values", values.len())));
+                return Err(self.error(format!("the file ends after {met} of {count} values")));
             };
-            for word in words {
-                values.push(self.parse(word)?);
+            met += words.len();
+            if keep {
+                for word in words {
+                    values.push(self.parse(word)?);
+                }
             }
         }
-        if values.len() > count {
+        if met > count {
             return Err(self.error(format!("more than {count} values")));
         }
         Ok(values)
     }
 
-    fn binary_values(&mut self, count: usize, kind: &str) -> Result<Vec<f64>, TableError> {
+    fn binary_values(&mut self, count: usize, kind: &str, keep: bool) -> Result<Vec<f64>, TableError> {
         fn take<const N: usize>(bytes: &[u8], f: fn([u8; N]) -> f64) -> Vec<f64> {
             bytes.as_chunks::<N>().0.iter().map(|c| f(*c)).collect()
         }
-        let width = match kind {
-            "float" | "int" => 4,
-            "double" => 8,
-            _ => return Err(self.error(format!("binary values of type {kind}; float, double and int are read"))),
+        type Take = fn(&[u8]) -> Vec<f64>;
+        let (width, read): (usize, Take) = match kind.to_ascii_lowercase().as_str() {
+            "float" => (4, |b| take(b, |b| f64::from(f32::from_be_bytes(b)))),
+            "double" => (8, |b| take(b, f64::from_be_bytes)),
+            "char" | "signed_char" => (1, |b| take(b, |b| f64::from(i8::from_be_bytes(b)))),
+            "unsigned_char" => (1, |b| take(b, |b| f64::from(u8::from_be_bytes(b)))),
+            "short" => (2, |b| take(b, |b| f64::from(i16::from_be_bytes(b)))),
+            "unsigned_short" => (2, |b| take(b, |b| f64::from(u16::from_be_bytes(b)))),
+            "int" => (4, |b| take(b, |b| f64::from(i32::from_be_bytes(b)))),
+            "unsigned_int" => (4, |b| take(b, |b| f64::from(u32::from_be_bytes(b)))),
+            "long" | "vtkidtype" | "vtktypeint64" => (8, |b| take(b, |b| i64::from_be_bytes(b) as f64)),
+            "unsigned_long" | "vtktypeuint64" => (8, |b| take(b, |b| u64::from_be_bytes(b) as f64)),
+            _ => return Err(self.error(format!("binary values of type {}, which is not read", quoted(kind)))),
         };
         let end = count.checked_mul(width).and_then(|n| n.checked_add(self.at));
         let Some(bytes) = end.and_then(|end| self.file.get(self.at..end)) else {
             return Err(self.error(format!("the file ends before {count} values")));
         };
         self.at += bytes.len();
-        Ok(match kind {
-            "float" => take(bytes, |b| f64::from(f32::from_be_bytes(b))),
-            "int" => take(bytes, |b| f64::from(i32::from_be_bytes(b))),
-            _ => take(bytes, f64::from_be_bytes),
-        })
+        Ok(if keep { read(bytes) } else { Vec::new() })
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use proptest::prelude::*;
-
-    const HEAD: &str = "# vtk DataFile Version 3.0\na channel\nASCII\nDATASET RECTILINEAR_GRID\nDIMENSIONS 2 3 1\n\
-                        X_COORDINATES 2 float\n0 1\nY_COORDINATES 3 float\n0 1\n4\nZ_COORDINATES 1 float\n0\n";
-    const DATA: &str = "POINT_DATA 6\nVECTORS U float\n0 0 0  1 0 0\n10 1 0 11 1 0 40 4 0 41 4 0\n\
-                        FIELD FieldData 2\nk 1 6 float\n1 1 1 1 1 1\nepsilon 1 6 double\n2 2 2 2 2 2\n\
-                        SCALARS p float 1\nLOOKUP_TABLE default\n0 0 0 0 0 0\n";
-
-    #[test]
-    fn ascii() {
-        let table = Table::from_vtk(format!("{HEAD}{DATA}").as_bytes()).unwrap();
-        assert_eq!(table.size(), [2, 3, 1]);
-        assert_eq!(table.velocity([0.5, 2.5, 0.0]), [25.5, 2.5, 0.0]);
-        let local = table.sample([0.5, 2.5, 0.0]);
-        assert_eq!((local.k, local.epsilon), (1.0, 2.0));
-    }
-
-    #[test]
-    fn binary_with_metadata_on_even_points() {
-        let mut file = b"# vtk DataFile Version 5.1\nvtk output\nBINARY\nDATASET STRUCTURED_POINTS\n".to_vec();
-        file.extend(b"DIMENSIONS 2 1 2\nSPACING 0.5 1 2\nORIGIN 1 0 0\nPOINT_DATA 4\nVECTORS velocity double\n");
-        for n in 0..4 {
-            for c in [f64::from(n), 0.0, 7.5] {
-                file.extend(c.to_be_bytes());
-            }
-        }
-        file.extend(b"\nMETADATA\nINFORMATION 0\n\nSCALARS p float 1\nLOOKUP_TABLE default\n");
-        file.extend([1.0f32; 4].iter().flat_map(|v| v.to_be_bytes()));
-        file.extend(b"\n");
-        let table = Table::from_vtk(&file).unwrap();
-        assert_eq!(table.bounds(), [[1.0, 0.0, 0.0], [1.5, 0.0, 2.0]]);
-        assert_eq!(table.velocity([1.25, 0.0, 1.0]), [1.5, 0.0, 7.5]);
-    }
-
-    #[test]
-    fn errors_say_what() {
-        let fails = |text: String, want: &str| {
-            let error = Table::from_vtk(text.as_bytes()).unwrap_err().to_string();
-            assert!(error.contains(want), "{error}");
-        };
-        fails("hello".into(), "# vtk DataFile");
-        fails(format!("{HEAD}{DATA}").replace("RECTILINEAR_GRID", "POLYDATA"), "POLYDATA is not a rectilinear grid");
-        fails(format!("{HEAD}{DATA}").replace("2 3 1", "2 3 4000000000"), "do not fit");
-        fails(format!("{HEAD}{DATA}").replace("0 1\n4", "0 1\n1"), "coordinates must rise");
-        fails(format!("{HEAD}{DATA}").replace("VECTORS U", "SCALARS U"), "where LOOKUP_TABLE should be");
-        fails(format!("{HEAD}{DATA}").replace("epsilon 1", "dissipation 1"), "k and epsilon");
-        fails(format!("{HEAD}{DATA}").replace("41 4 0", "41 4 x"), "\"x\" is not a number");
-        fails(format!("{HEAD}{DATA}").replace("41 4 0", "41 4 nan"), "NaN among");
-        fails(HEAD.into(), "where POINT_DATA should be");
-        fails(format!("{HEAD}POINT_DATA 6\n"), "no point vectors");
-        fails(format!("{HEAD}POINT_DATA 6\nVECTORS U float\n0 0 0"), "the file ends");
-    }
-
-    proptest! {
-        #[test]
-        fn bytes_never_panic(cut in 0usize..400, at in 0usize..400, byte: u8) {
-            let mut file = format!("{HEAD}{DATA}").into_bytes();
-            let n = file.len();
-            file[at % n] = byte;
-            file.truncate(n - cut % n);
-            let _ = Table::from_vtk(&file);
-            let binary = String::from_utf8_lossy(&file).replace("ASCII", "BINARY");
-            let _ = Table::from_vtk(binary.as_bytes());
-        }
-    }
-}
+mod tests;

@@ -4,10 +4,12 @@
 //! XML, base64 and zlib are those of roxmltree, base64 and flate2, which the program holds for its pictures anyway; vtkio, the
 //! library for VTK, would bring second ones, and LZ4 and LZMA, of which ParaView's default needs none.
 
-use super::vtk::{Array, rising, table};
+use super::arrays::{Chosen, Described, cells, hidden};
+use super::columns::Validity;
 use super::{Table, TableError};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
+use carom_table::{clipped, quoted};
 use roxmltree::{Document, Node};
 use std::io::Read as _;
 
@@ -17,12 +19,14 @@ pub(super) fn read(file: &[u8]) -> Result<Table, TableError> {
 
 fn read_or_say(file: &[u8]) -> Result<Table, String> {
     let (text, appended) = apart(file)?;
-    let document = Document::parse(&text).map_err(|e| e.to_string())?;
+    few_attributes(&text)?;
+    let document = Document::parse(&text).map_err(|e| clipped(&e.to_string()).into_owned())?;
     let root = document.root_element();
     let kind = root.attribute("type").unwrap_or("no type");
     let form = Form::of(root, appended)?;
     let grid = child(root, kind).filter(|_| matches!(kind, "RectilinearGrid" | "ImageData"));
-    let grid = grid.ok_or_else(|| format!("a rectilinear grid (.vtr) or an image (.vti) is read, not {kind}"))?;
+    let grid =
+        grid.ok_or_else(|| format!("a rectilinear grid (.vtr) or an image (.vti) is read, not {}", clipped(kind)))?;
     let pieces: Vec<Node> = grid.children().filter(|n| n.has_tag_name("Piece")).collect();
     let [piece] = pieces[..] else {
         return Err(format!("{} pieces; one is read", pieces.len()));
@@ -36,28 +40,80 @@ fn read_or_say(file: &[u8]) -> Result<Table, String> {
     let ([Some(nx), Some(ny), Some(nz)], Some(nodes)) = (size, nodes) else {
         return Err(format!("the extent {extent:?} does not fit the file"));
     };
+    let size = [nx, ny, nz];
+    let fields = Fields::of(&form, piece, size)?;
+    // the arrays come first: what they hold tells whether the axes are worth making
+    let values = fields.read()?;
+    let hidden = fields.hidden()?;
+    debug_assert!(nodes > 0);
     let axes = if kind == "ImageData" {
-        evenly(grid, [a, c, e], [nx, ny, nz])?
+        evenly(grid, [a, c, e], size)?
     } else {
         let coordinates = child(piece, "Coordinates").ok_or("no Coordinates")?;
         let all: Vec<Node> = arrays(coordinates).collect();
         let [x, y, z] = all[..] else { return Err("Coordinates needs three arrays".to_owned()) };
         [form.values(x, nx)?, form.values(y, ny)?, form.values(z, nz)?]
     };
-    rising(&axes)?;
-    let data = child(piece, "PointData").ok_or("no PointData")?;
-    let mut found = Vec::new();
-    for array in arrays(data).filter(|a| a.attribute("type") != Some("String")) {
-        let components =
-            array.attribute("NumberOfComponents").map_or(Ok(1), str::parse).map_err(|_| "NumberOfComponents?")?;
-        let name = array.attribute("Name").unwrap_or_default().to_owned();
-        // others are not worth reading
-        if components == 3 || components == 1 && ["k", "epsilon"].iter().any(|n| name.eq_ignore_ascii_case(n)) {
-            let count = nodes.checked_mul(components).ok_or("too many values")?;
-            found.push(Array { values: form.values(array, count)?, name, components });
-        }
+    let Fields { described, chosen, .. } = fields;
+    chosen.table(axes, &described, &values, hidden.as_deref())
+}
+
+/// The arrays of a piece, and which are used.
+struct Fields<'f, 'a, 'b> {
+    form: &'f Form<'f>,
+    piece: Node<'a, 'b>,
+    arrays: Vec<Node<'a, 'b>>,
+    described: Vec<Described>,
+    chosen: Chosen,
+    /// Nodes.
+    size: [usize; 3],
+    of_cells: bool,
+}
+
+impl<'f, 'a, 'b> Fields<'f, 'a, 'b> {
+    /// Point data, or cell data where the points have no velocity.
+    fn of(form: &'f Form<'f>, piece: Node<'a, 'b>, size: [usize; 3]) -> Result<Self, String> {
+        let fields = |name: &str, of_cells: bool| -> Result<Self, String> {
+            let data = child(piece, name).ok_or_else(|| format!("no {name}"))?;
+            let arrays: Vec<Node> = arrays(data).filter(|a| a.attribute("type") != Some("String")).collect();
+            let described = arrays.iter().map(|a| describe(*a)).collect::<Result<Vec<_>, _>>()?;
+            let chosen = Chosen::of(&described, of_cells)?;
+            Ok(Self { form, piece, arrays, described, chosen, size, of_cells })
+        };
+        fields("PointData", false).or_else(|what| fields("CellData", true).map_err(|_| what))
     }
-    table(axes, &found)
+
+    fn count(&self) -> Result<usize, String> {
+        let size = if self.of_cells { cells(self.size) } else { self.size };
+        size.iter().try_fold(1usize, |n, m| n.checked_mul(*m)).ok_or_else(|| "too many values".to_owned())
+    }
+
+    /// The values of the arrays that are used.
+    fn read(&self) -> Result<Vec<Option<Vec<f64>>>, String> {
+        let (used, count) = (self.chosen.used(), self.count()?);
+        let mut values = vec![None; self.arrays.len()];
+        for i in used {
+            let all = count.checked_mul(self.described[i].components).ok_or("too many values")?;
+            values[i] = Some(self.form.values(self.arrays[i], all)?);
+        }
+        Ok(values)
+    }
+
+    /// The nodes that a mask of the cells hides, where the data are of points.
+    fn hidden(&self) -> Result<Option<Vec<bool>>, String> {
+        let Some(data) = child(self.piece, "CellData").filter(|_| !self.of_cells) else { return Ok(None) };
+        let kind = |a: &Node| Validity::of(a.attribute("Name").unwrap_or_default(), true);
+        let Some((array, kind)) = arrays(data).find_map(|a| Some((a, kind(&a)?))) else { return Ok(None) };
+        let count = cells(self.size).iter().product();
+        Ok(Some(hidden(self.size, kind, &self.form.values(array, count)?)))
+    }
+}
+
+fn describe(array: Node) -> Result<Described, String> {
+    let name = array.attribute("Name").unwrap_or_default().to_owned();
+    let components = array.attribute("NumberOfComponents").unwrap_or("1");
+    let components = components.parse().map_err(|_| format!("NumberOfComponents of {}?", quoted(&name)))?;
+    Ok(Described { name, components })
 }
 
 fn child<'a, 'b>(node: Node<'a, 'b>, name: &str) -> Option<Node<'a, 'b>> {
@@ -71,7 +127,7 @@ fn arrays<'a, 'b>(node: Node<'a, 'b>) -> impl Iterator<Item = Node<'a, 'b>> {
 fn numbers<T: std::str::FromStr>(node: Node, name: &str) -> Result<Vec<T>, String> {
     let text = node.attribute(name).ok_or_else(|| format!("no {name}"))?;
     let all = text.split_whitespace().map(str::parse).collect::<Result<_, _>>();
-    all.map_err(|_| format!("{name} is \"{text}\""))
+    all.map_err(|_| format!("{name} is {}", quoted(text)))
 }
 
 /// The axes of an image.
@@ -87,6 +143,13 @@ fn evenly(grid: Node, first: [i64; 3], size: [usize; 3]) -> Result<[Vec<f64>; 3]
     };
     let (origin, spacing) = (triple("Origin")?, triple("Spacing")?);
     Ok([0, 1, 2].map(|i| (0..size[i]).map(|n| origin[i] + (first[i] as f64 + n as f64) * spacing[i]).collect()))
+}
+
+/// Refuses elements of so many attributes that looking for doubled ones takes long.
+fn few_attributes(text: &str) -> Result<(), String> {
+    const MOST: usize = 200;
+    let many = |tag: &str| tag.split('>').next().unwrap_or_default().matches('=').count() > MOST;
+    if text.split('<').any(many) { Err(format!("an element with more than {MOST} attributes")) } else { Ok(()) }
 }
 
 /// Appended data, if there is any, and whether it is base64.
@@ -123,7 +186,8 @@ impl<'a> Form<'a> {
             Some("vtkZLibDataCompressor") => true,
             Some(other) => {
                 return Err(format!(
-                    "compressed by {other}; save it with ZLib compression or none, or as legacy VTK (.vtk)"
+                    "compressed by {}; save it with ZLib compression or none, or as legacy VTK (.vtk)",
+                    clipped(other)
                 ));
             }
         };
@@ -134,7 +198,7 @@ impl<'a> Form<'a> {
     /// The values of an array, of which so many are wanted.
     fn values(&self, array: Node, count: usize) -> Result<Vec<f64>, String> {
         let name = array.attribute("Name").unwrap_or_default();
-        let failed = |what: String| format!("array \"{name}\": {what}");
+        let failed = |what: String| format!("array {}: {what}", quoted(name));
         let kind = array.attribute("type").unwrap_or_default();
         let text = array.text().unwrap_or_default();
         let values = match array.attribute("format") {
@@ -146,20 +210,23 @@ impl<'a> Form<'a> {
                 self.binary(&mut Stretch { rest, encoded }, count, kind)
             }
             Some("binary") => self.binary(&mut Stretch { rest: text.trim().as_bytes(), encoded: true }, count, kind),
-            _ => text.split_whitespace().map(|w| w.parse().map_err(|_| format!("\"{w}\" is not a number"))).collect(),
+            _ => text
+                .split_whitespace()
+                .map(|w| w.parse().map_err(|_| format!("{} is not a number", quoted(w))))
+                .collect(),
         }
         .map_err(failed)?;
-        match values.iter().any(|v: &f64| !v.is_finite()) {
-            _ if values.len() != count => Err(failed(format!("{} values where {count} are wanted", values.len()))),
-            true => Err(failed("NaN or infinity among the values".to_owned())),
-            false => Ok(values),
+        if values.len() == count {
+            Ok(values)
+        } else {
+            Err(failed(format!("{} values where {count} are wanted", values.len())))
         }
     }
 
     fn binary(&self, stretch: &mut Stretch, count: usize, kind: &str) -> Result<Vec<f64>, String> {
         let (width, read) = reader(kind, self.big_endian)?;
         let wanted = count.checked_mul(width).ok_or("too many values")?;
-        let bytes = if self.compressed { self.inflate(stretch, wanted)? } else { self.plain(stretch)? };
+        let bytes = if self.compressed { self.inflate(stretch, wanted)? } else { self.plain(stretch, wanted)? };
         if bytes.len() != wanted {
             return Err(format!("{} bytes where {wanted} are wanted", bytes.len()));
         }
@@ -176,9 +243,10 @@ impl<'a> Form<'a> {
     }
 
     /// A length, then as many bytes, encoded together or each by itself.
-    fn plain(&self, stretch: &mut Stretch) -> Result<Vec<u8>, String> {
+    fn plain(&self, stretch: &mut Stretch, wanted: usize) -> Result<Vec<u8>, String> {
         let width = if self.wide { 8 } else { 4 };
         let length = self.sizes(&stretch.clone().part(width)?).first().copied().unwrap_or_default();
+        promised(length, wanted)?;
         if stretch.encoded && !stretch.ends_within(width) {
             let whole = length.checked_add(width).ok_or("cut short")?;
             return Ok(stretch.part(whole)?.split_off(width));
@@ -192,7 +260,12 @@ impl<'a> Form<'a> {
         let width = if self.wide { 8 } else { 4 };
         let blocks = self.sizes(&stretch.clone().part(width)?).first().copied().unwrap_or_default();
         let header = blocks.checked_add(3).and_then(|n| n.checked_mul(width)).ok_or("cut short")?;
-        let sizes = self.sizes(&stretch.part(header)?).split_off(3);
+        let mut first = self.sizes(&stretch.part(header)?);
+        let sizes = first.split_off(3);
+        // full blocks, and one that is shorter
+        let full = if first[2] == 0 { blocks } else { blocks.saturating_sub(1) };
+        let length = full.checked_mul(first[1]).and_then(|n| n.checked_add(if blocks == 0 { 0 } else { first[2] }));
+        promised(length.unwrap_or(usize::MAX), wanted)?;
         let all = sizes.iter().try_fold(0usize, |n, m| n.checked_add(*m)).ok_or("cut short")?;
         let packed = stretch.part(all)?;
         let (mut bytes, mut rest) = (Vec::new(), packed.as_slice());
@@ -207,6 +280,11 @@ impl<'a> Form<'a> {
     }
 }
 
+/// Refuses, before anything is unpacked, another number of bytes than is wanted.
+fn promised(length: usize, wanted: usize) -> Result<(), String> {
+    if length == wanted { Ok(()) } else { Err(format!("{length} bytes where {wanted} are wanted")) }
+}
+
 /// How wide a number is, and what it is.
 type Reader = (usize, fn(&[u8]) -> f64);
 
@@ -218,7 +296,7 @@ fn reader(kind: &str, big_endian: bool) -> Result<Reader, String> {
                     ($name, false) => (size_of::<$type>(), |b: &[u8]| b.try_into().map_or(f64::NAN, |b| <$type>::from_le_bytes(b) as f64)),
                     ($name, true) => (size_of::<$type>(), |b: &[u8]| b.try_into().map_or(f64::NAN, |b| <$type>::from_be_bytes(b) as f64)),
                 )*
-                _ => return Err(format!("type {kind} is not known")),
+                _ => return Err(format!("type {} is not known", quoted(kind))),
             }
         };
     }

@@ -97,3 +97,30 @@ fn the_digits_tell_the_precision() {
     assert!((with("0.0123456789") / 5e-9 - 1.0).abs() < 1e-12);
     assert_eq!(with("0.12345678901234567"), 1e-15);
 }
+
+/// Files changed by chance are read whole or refused; the seed is printed.
+#[test]
+fn bytes_by_chance_never_panic() {
+    let seed = std::env::var("CAROM_SEED").ok().and_then(|s| s.parse().ok()).unwrap_or(1u64);
+    println!("seed {seed} (CAROM_SEED)");
+    let mut state = seed;
+    let mut next = move |below: usize| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as usize % below
+    };
+    let good = [text("a", 2).into_bytes(), bytes(b"solid", 2, 2, 1.0)];
+    for n in 0..4_000 {
+        let mut file = good[n % 2].clone();
+        for _ in 0..=next(3) {
+            let at = next(file.len());
+            match next(3) {
+                0 => file[at] = next(256) as u8,
+                1 => file.insert(at, b"0.\n sef-"[next(8)]),
+                _ => file.truncate(at.max(1)),
+            }
+        }
+        if let Ok(stl) = read(&file) {
+            assert!(stl.triangles.iter().flatten().flatten().all(|c| c.is_finite()));
+        }
+    }
+}

@@ -201,3 +201,25 @@ fn the_faces_of_a_wall_of_triangles_hold_what_it_kept() {
     merge(&parts, &at("merged"), false).unwrap();
     assert!(files(&at("whole")) == files(&at("merged")));
 }
+
+/// Of three spheres that follow 1 m/s in a table of 1 m, one leaves it in 0.5 s, and one begins outside.
+#[test]
+fn spheres_outside_the_table_are_counted() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("flow.csv"), "x,u\n0,1\n1,1\n").unwrap();
+    let sphere = |x: f64| {
+        format!("[[injection]]\ndensity = 1000\ndiameter = \"10 um\"\nposition = [{x}, 0, 0]\nvelocity = \"fluid\"\n")
+    };
+    let text = format!(
+        "[flow]\nkind = \"table\"\nfile = \"flow.csv\"\n{}{}{}[run]\nuntil = \"0.5 s\"\n",
+        sphere(0.2),
+        sphere(0.7),
+        sphere(1.5)
+    );
+    let case = Case::from_toml(&text, &folder.path().join("case.toml"), Library::builtin()).unwrap();
+    let summary = run(&case, &options(&folder.path().join("out"), 1), &Silent).unwrap();
+    assert_eq!(summary.strayed, 2);
+    let json: serde_json::Value =
+        serde_json::from_slice(&fs::read(folder.path().join("out/summary.json")).unwrap()).unwrap();
+    assert_eq!(json["outside_table"], 2);
+}

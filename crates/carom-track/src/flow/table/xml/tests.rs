@@ -69,14 +69,76 @@ fn errors_say_what() {
     fails("x,y\n", "VTK XML");
     fails(&text.replace("RectilinearGrid", "PolyData"), "not PolyData");
     fails(&text.replace("Piece Extent=\"0 2", "Piece Extent=\"0 999999999"), "does not fit the file");
-    fails(&text.replace("Piece Extent=\"0 2", "Piece Extent=\"0 3"), "3 values where 4 are wanted");
+    fails(&text.replace("Piece Extent=\"0 2", "Piece Extent=\"0 3"), "36 values where 48 are wanted");
     fails(&text.replace("0 0.5 1.5", "0 0.5 0.5"), "coordinates must rise");
     fails(&text.replace("0 0.5 1.5", "0 0.5 x"), "array \"x\": \"x\" is not a number");
     fails(&text.replace("0 0.5 1.5", "0 0.5 nan"), "NaN");
-    fails(&text.replace("\"epsilon\"", "\"dissipation\""), "k and epsilon must both");
-    fails(&text.replace("\"U\" NumberOfComponents=\"3\"", "\"U\" NumberOfComponents=\"2\""), "no point vectors");
+    fails(&text.replace("\"U\" NumberOfComponents=\"3\"", "\"U\" NumberOfComponents=\"2\""), "no vectors named");
     let (_, lz4) = file!("lz4.vtr");
     fails(&String::from_utf8_lossy(lz4), "compressed by vtkLZ4DataCompressor; save it with ZLib");
+}
+
+/// An image of 5 x 2 x 2 nodes 1 m apart, with data of points or cells.
+fn image(data: &str) -> Result<Table, TableError> {
+    let text = format!(
+        "<VTKFile type=\"ImageData\"><ImageData WholeExtent=\"0 4 0 1 0 1\" Origin=\"0 0 0\" Spacing=\"1 1 1\">\
+         <Piece Extent=\"0 4 0 1 0 1\">{data}</Piece></ImageData></VTKFile>"
+    );
+    Table::from_vtk_xml(text.as_bytes())
+}
+
+fn array(name: &str, components: usize, values: &str) -> String {
+    format!(
+        "<DataArray type=\"Float64\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"ascii\">{values}</DataArray>"
+    )
+}
+
+#[test]
+fn what_is_not_valid_is_no_data() {
+    let u = array("U", 3, &"1 0 0 1 0 0 0 0 0 1 0 0 1 0 0 ".repeat(4));
+    for (name, valid, not) in [("vtkValidPointMask", 1, 0), ("vtkGhostType", 1, 2)] {
+        let mask = array(name, 1, &format!("{valid} {valid} {not} {valid} {valid} ").repeat(4));
+        let table = image(&format!("<PointData>{u}{mask}</PointData>")).unwrap();
+        for x in [0.5, 1.5, 2.0, 2.5, 3.5] {
+            assert_eq!(table.velocity([x, 0.5, 0.5]), [1.0, 0.0, 0.0], "{name} {x}");
+        }
+        assert!(table.notes()[0].starts_with("4 of 20 nodes are not valid"), "{:?}", table.notes());
+    }
+    let ghost = array("vtkGhostType", 1, "0 0 0 32");
+    let u = array("U", 3, &"1 0 0 1 0 0 1 0 0 1 0 0 7 0 0 ".repeat(4));
+    let table = image(&format!("<PointData>{u}</PointData><CellData>{ghost}</CellData>")).unwrap();
+    assert_eq!(table.velocity([4.0, 0.5, 0.5]), [1.0, 0.0, 0.0]);
+    let none = array("vtkValidPointMask", 1, &"0 ".repeat(20));
+    assert!(image(&format!("<PointData>{u}{none}</PointData>")).unwrap_err().to_string().contains("no node is valid"));
+}
+
+#[test]
+fn data_of_cells_hold_at_their_middles() {
+    let u = array("U", 3, "1 0 0 2 0 0 3 0 0 4 0 0");
+    let table = image(&format!("<PointData></PointData><CellData>{u}</CellData>")).unwrap();
+    assert_eq!((table.size(), table.bounds()), ([6, 3, 3], [[0.0; 3], [4.0, 1.0, 1.0]]));
+    assert_eq!(table.velocity([1.0, 0.9, 0.1]), [1.5, 0.0, 0.0]);
+    assert!(table.notes()[0].contains("of cells"), "{:?}", table.notes());
+}
+
+#[test]
+fn scalars_may_be_the_velocity() {
+    let of = |name, v: &str| array(name, 1, &format!("{v} ").repeat(20));
+    let data = [of("x-velocity", "1"), of("y-velocity", "2"), of("pressure", "5")].concat();
+    let table = image(&format!("<PointData>{data}</PointData>")).unwrap();
+    assert_eq!(table.velocity([1.0; 3]), [1.0, 2.0, 0.0]);
+    assert_eq!(table.notes(), ["not used: pressure"]);
+}
+
+#[test]
+fn what_promises_too_much_costs_little() {
+    let many: String = (0..50_000).map(|i| format!(" a{i}=\"\"")).collect();
+    let begin = std::time::Instant::now();
+    let error = image(&format!("<PointData{many}></PointData>")).unwrap_err().to_string();
+    assert!(error.contains("attributes"), "{error}");
+    let error = image(&format!("<PointData>{}</PointData>", array("U", 3, &"x".repeat(1_000_000)))).unwrap_err();
+    assert!(error.to_string().len() < 200, "{error}");
+    assert!(begin.elapsed().as_secs_f64() < 5.0);
 }
 
 proptest! {
