@@ -97,6 +97,9 @@ fn one(args: &Args, case: &ImpactArgs) -> Result<(), Failure> {
     let mut lines = Lines::default();
     figures.tell(&mut lines);
     figures.compare(&mut lines);
+    if let Some(typical) = law.typical() {
+        lines.add("typical", typical);
+    }
     if let Some(removal) = &removal {
         removal.tell(&mut lines);
     }

@@ -29,6 +29,8 @@ pub struct AdhesionNumbers {
     tabor: f64,
     regime: &'static str,
     adhesion_parameter: Option<f64>,
+    #[serde(skip)]
+    asperities: bool,
     equilibrium_spacing: f64,
 }
 
@@ -61,6 +63,7 @@ impl Figures {
                 tabor: n.tabor,
                 regime: n.regime.name(),
                 adhesion_parameter: n.adhesion_parameter,
+                asperities: n.asperities,
                 equilibrium_spacing: n.spacing,
             }),
             pair: wall.pair().map(|p| Pair {
@@ -131,7 +134,8 @@ impl Figures {
         if let Some(n) = &self.adhesion_numbers {
             let mut text = format!("Tabor's parameter {} ({})", number(n.tabor), n.regime);
             if let Some(theta) = n.adhesion_parameter {
-                text += &format!(", adhesion parameter {}", number(theta));
+                let of = if n.asperities { " of the asperities" } else { "" };
+                text += &format!(", adhesion parameter{of} {}", number(theta));
             }
             lines.add("adhesion", text);
         }

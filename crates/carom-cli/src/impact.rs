@@ -180,6 +180,9 @@ fn tell(answer: &Answer, law: &Law, motion: &Motion, met: &Met) -> String {
         lines.add("rough", format!("roughness angle {angle}: this is the impact on the median facet; e and the angles are against the mean wall"));
     }
     lines.add("energy", shares(met));
+    if let Some(typical) = law.typical() {
+        lines.add("typical", typical);
+    }
     warnings(law, motion, met).tell(&mut lines);
     text + &lines.to_string()
 }

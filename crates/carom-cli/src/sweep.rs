@@ -1,6 +1,7 @@
 //! `carom sweep`: impacts along a range of speeds, diameters, angles or numbers of the law, as a table and a plot; along two, a map.
 
 mod map;
+mod measured;
 
 use crate::failure::{Failure, say};
 use crate::grid::{Curve, Grid, GridArgs, Over, Swept};
@@ -14,6 +15,7 @@ use carom::study::Given;
 use carom::study::Sampling;
 use carom_report::plot::Reference;
 use carom_report::{Axis, Column, Plot, Series, Table};
+use std::path::PathBuf;
 
 const EXAMPLE: &str = "\
 Examples:
@@ -23,6 +25,7 @@ Examples:
   carom sweep --wall-law walls.toml:glass --diameter 90um --speed 2 --over angle=5..90 \
     --quantity impulse-ratio --plot impulse.png
   carom sweep --sphere copper --surface silicon --law eap --over speed=0.1..30 --over diameter=1..100um --plot map.svg
+  carom sweep --wall-law walls.toml:glass --diameter 90um --over speed=0.1..30 --data points.csv --plot e.svg
   carom sweep --sphere copper --surface silicon --diameter 90um --speed 2 --angle 30 --over friction=0..0.5
   carom sweep --sphere copper --surface silicon --diameter 'lognormal(50um, 1.3)' \
     --roughness-factor 'normal(0.8, 0.1)' --over speed=0.01..1 --plot bands.svg
@@ -49,6 +52,9 @@ pub struct Args {
     grid: GridArgs,
     #[command(flatten)]
     samples: SampleArgs,
+    /// Measured points (a CSV file as `carom fit` reads it) to draw over the curves
+    #[arg(long, value_name = "FILE", requires = "plot", help_heading = "Output")]
+    data: Option<PathBuf>,
     /// What the plot shows
     #[arg(long, value_enum, default_value_t = Shown::Restitution, help_heading = "Output")]
     quantity: Shown,
@@ -102,6 +108,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         _ => return Err(Failure::input("--over makes a curve, twice a map; --by adds more")),
     };
     let grid = args.grid.grid(over, &args.case)?;
+    let measured = args.data.as_ref().map(|path| measured::read(path, args, &grid)).transpose()?.unwrap_or_default();
     if let Some(sampling) = args.samples.sampling(grid.curves.iter().any(|c| is_drawn(&c.args))) {
         if let Swept::Law(_) = grid.quantity() {
             let flag = grid.quantity().flag();
@@ -110,7 +117,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
             );
             return Err(Failure::input(message));
         }
-        return sampled(args, &grid, &files, &sampling);
+        return sampled(args, &grid, &files, &sampling, &measured);
     }
     let Some(shown) = args.quantity.figure() else {
         return Err(Failure::input(format!("--quantity sticking-probability: one impact has none. {NOTHING}")));
@@ -126,7 +133,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         &files,
         || whole(&grid, &met),
         || short(&grid, &met, oblique),
-        || plot(&grid, &met, &laws, args.quantity, shown),
+        || measured::over(plot(&grid, &met, &laws, args.quantity, shown), &measured),
     )
 }
 
@@ -201,7 +208,7 @@ fn plot(grid: &Grid, met: &[Met], laws: &[Law], shown: Shown, figure: Figure) ->
 }
 
 /// Where values are distributions or the wall scatters: probabilities and bands.
-fn sampled(args: &Args, grid: &Grid, files: &Files, sampling: &Sampling) -> Result<(), Failure> {
+fn sampled(args: &Args, grid: &Grid, files: &Files, sampling: &Sampling, measured: &[Series]) -> Result<(), Failure> {
     let study = Study::new(grid, sampling)?;
     let table = |figures: &[Figure]| {
         let mut columns = grid.columns();
@@ -212,7 +219,12 @@ fn sampled(args: &Args, grid: &Grid, files: &Files, sampling: &Sampling) -> Resu
     let oblique = grid.curves.iter().any(|c| grid.is_oblique(c));
     let told: &[Figure] = if oblique { &[Figure::Restitution, Figure::AngleOut] } else { &[Figure::Restitution] };
     say(&note(sampling, grid.curves.iter().map(|c| &c.args)));
-    grid.show(files, || table(&Figure::ALL), || table(told), || sampled_plot(grid, &study, args.quantity))
+    grid.show(
+        files,
+        || table(&Figure::ALL),
+        || table(told),
+        || measured::over(sampled_plot(grid, &study, args.quantity), measured),
+    )
 }
 
 fn sampled_plot(grid: &Grid, study: &Study, shown: Shown) -> Plot {

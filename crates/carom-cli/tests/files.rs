@@ -220,3 +220,44 @@ fn long_help_has_an_example_of_each() {
     let version = carom(folder.path(), "--version");
     assert_eq!(String::from_utf8_lossy(&version.stdout), format!("carom {}\n", env!("CARGO_PKG_VERSION")));
 }
+
+#[test]
+fn measured_points_lie_over_a_prediction_and_a_title_names_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (points, plot) = (folder.path().join("p.csv"), folder.path().join("p.svg"));
+    std::fs::write(&points, "speed,restitution,sigma\n1,0.8,0.05\n5,0.6,0.03\n").expect("written");
+    let base = ["sweep", "--sphere", "copper", "--surface", "glass", "--diameter", "90um", "--over", "speed=0.1..30"];
+    let run = |more: &[&str]| {
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_carom"));
+        command.args(base).arg("--data").arg(&points).args(more).output().expect("it runs")
+    };
+    let plot_text = plot.to_str().expect("a path");
+    assert!(run(&["--plot", plot_text, "--title", "My <own> data"]).status.success());
+    let svg = std::fs::read_to_string(&plot).expect("a plot");
+    assert!(
+        svg.contains("measured") && svg.contains("My &lt;own> data") | svg.contains("My &lt;own&gt; data"),
+        "{svg}"
+    );
+    // points have no such quantity; without a plot there is nothing to draw on
+    assert_eq!(run(&["--plot", plot_text, "--quantity", "angle-out"]).status.code(), Some(2));
+    assert_eq!(run(&[]).status.code(), Some(2));
+}
+
+#[test]
+fn two_ranges_make_a_map_of_capture_rebound_and_yield() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (table, plot) = (folder.path().join("m.csv"), folder.path().join("m.svg"));
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_carom"));
+    command.args(["sweep", "--sphere", "copper", "--surface", "silicon", "--law", "eap", "--points", "12"]);
+    command
+        .args(["--over", "speed=0.1..30", "--over", "diameter=1..100um", "--out"])
+        .arg(&table)
+        .arg("--plot")
+        .arg(&plot);
+    assert!(command.output().expect("it runs").status.success());
+    let table = std::fs::read_to_string(&table).expect("a table");
+    assert_eq!(table.lines().count(), 1 + 12 * 12);
+    assert!(table.contains("capture") && table.contains("rebound"));
+    let svg = std::fs::read_to_string(&plot).expect("a map");
+    assert!(svg.contains("0 capture, 1 rebound, 2 rebound with yield"), "{svg}");
+}

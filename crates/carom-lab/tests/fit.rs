@@ -159,6 +159,28 @@ fn scatter_beyond_sigma_and_wrong_fates_are_told() {
 }
 
 #[test]
+fn a_law_that_cannot_describe_the_points_is_told() {
+    let said = |names: &[Key], csv: &str| found("normal = \"ea\"\n", names, &data(csv), 0).warnings.join("\n");
+    // far more adhesion than the materials have, and plastic loss
+    let sticky = said(&[RoughnessFactor], "speed,restitution\n0.5,0.35\n1,0.68\n2,0.81\n4,0.87\n");
+    let plastic = said(&[RoughnessFactor], "speed,restitution\n0.5,0.8\n1,0.7\n2,0.6\n4,0.5\n8,0.42\n16,0.35\n");
+    for said in [sticky, plastic] {
+        assert!(said.contains("the law does not describe these points"), "{said}");
+        assert!(said.contains("free work_of_adhesion") && said.contains("eap"), "{said}");
+    }
+    // what is only scatter is not
+    let law = wall("normal = \"ea\"\nroughness_factor = 0.5\n");
+    let csv = [(0.5, 0.01), (1.0, -0.02), (2.0, 0.015), (4.0, -0.01), (8.0, 0.02), (16.0, -0.015)].iter().fold(
+        "speed,restitution\n".to_owned(),
+        |text, (speed, off)| {
+            let impact = Impact::new(70e-6, [0.0, -speed, 0.0], [0.0, 1.0, 0.0]);
+            text + &format!("{speed},{}\n", law.impact(&impact).unwrap().restitution + off)
+        },
+    );
+    assert!(!said(&[RoughnessFactor], &csv).contains("does not describe"), "{csv}");
+}
+
+#[test]
 fn what_makes_no_sense_is_refused() {
     let ea = "normal = \"ea\"\n";
     let points = data("speed,restitution\n1,0.9\n2,0.95\n3,0.9\n");

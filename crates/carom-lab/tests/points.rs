@@ -177,6 +177,8 @@ fn points_as_others_write_them() {
     }
     let rows = points::read("speed,restitution,run\n1,0.9,7\n").expect("points");
     assert_eq!(rows.left_out, ["run"]);
+    let rows = points::read("speed,restitution,range,date\n1,0.9,7,2020\n").expect("points");
+    assert_eq!(rows.left_out, ["range", "date"]);
     assert_eq!(points::text(b"\xff\xfes\0").expect("UTF-16"), "s");
 }
 

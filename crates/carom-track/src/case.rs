@@ -90,7 +90,7 @@ impl Case {
             .injection
             .iter()
             .enumerate()
-            .map(|(i, at)| injection::read(at, i, seed, &fluid, library))
+            .map(|(i, at)| injection::read(at, i, seed, &fluid, dynamics.forces.slip, library))
             .collect::<Result<Vec<_>, _>>()?;
         if injections.is_empty() {
             return Err(SpecError::new("the case injects nothing").help("add an [[injection]]"));

@@ -99,7 +99,7 @@ impl Sink for Told {
 }
 
 /// These change only when a formula or the walk does, and then on every machine alike.
-const FLIGHTS: [u64; 3] = [0x672b_c5a4_2df6_9cab, 0xf9e3_8ff6_df97_c795, 0x8f36_94ca_bf8f_4d05];
+const FLIGHTS: [u64; 3] = [0x672b_c5a4_2df6_9cab, 0x0725_0e50_16f2_69fc, 0x8f36_94ca_bf8f_4d05];
 
 #[test]
 fn flights_have_fixed_bits_on_every_instruction_set() {

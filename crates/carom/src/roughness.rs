@@ -77,6 +77,8 @@ pub struct AdhesionNumbers {
     pub regime: Regime,
     /// Adhesion parameter θ, if a roughness is given.
     pub adhesion_parameter: Option<f64>,
+    /// Is θ that of the asperities, not of the sphere?
+    pub asperities: bool,
     /// Equilibrium spacing used, m.
     pub spacing: f64,
 }
@@ -95,6 +97,7 @@ pub fn adhesion_numbers(r: f64, w: f64, e_star: f64, spacing: f64, roughness: Op
         tabor,
         regime,
         adhesion_parameter: roughness.map(|s| e_star * s * s.sqrt() / (r.sqrt() * w)),
+        asperities: false,
         spacing,
     }
 }
@@ -108,6 +111,25 @@ mod tests {
         assert!((CALIBRATED_SPACING - 1.485 * 5e-10 / (20f64.sqrt() - 1.0)).abs() < 1e-24);
         let one_nm = factor(1e-9, CALIBRATED_SPACING);
         assert!((one_nm - 0.016).abs() < 5e-4, "{one_nm}");
+    }
+
+    #[cfg(feature = "toml")]
+    #[test]
+    fn the_asperities_parameter_is_told_where_it_decides() {
+        let text = "sphere = \"copper\"\nsurface = \"glass\"\nnormal = \"ea\"\nroughness = \"1 nm\"\n";
+        let theta = |more: &str| {
+            let law = crate::spec::parse_law(&format!("{text}{more}")).expect("a law");
+            let law = law.compile(crate::material::Library::builtin()).expect("it compiles");
+            let numbers = law.adhesion_numbers(20e-6).expect("fits").expect("it adheres");
+            (numbers.adhesion_parameter.expect("rough"), numbers.asperities, law.roughness_factor())
+        };
+        let (sphere, of_asperities, _) = theta("");
+        assert!(!of_asperities && (sphere - 0.41455).abs() < 1e-5, "{sphere}");
+        let (asperity, of_asperities, factor) =
+            theta("roughness_model = \"fuller-tabor\"\nasperity_radius = \"50 nm\"\n");
+        assert!(of_asperities && (asperity / (sphere * (10e-6f64 / 50e-9).sqrt()) - 1.0).abs() < 1e-12, "{asperity}");
+        // C_R is a function of it alone
+        assert!((fuller_tabor::factor(asperity) - factor).abs() < 1e-12);
     }
 
     #[test]

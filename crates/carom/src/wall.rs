@@ -34,6 +34,8 @@ pub(crate) struct About {
     pub pair: Option<Pair>,
     /// σ_r, if given, m.
     pub roughness: Option<f64>,
+    /// β, where Fuller & Tabor's C_R is in force, m.
+    pub asperity_radius: Option<f64>,
     /// C_R in force.
     pub roughness_factor: f64,
     /// z₀, m.

@@ -29,6 +29,9 @@ fn region(law: &Law, motion: &Motion, met: &Met) -> f64 {
 pub fn run(args: &Args, across: Over, up: Over) -> Result<(), Failure> {
     let files = args.grid.files()?;
     refuse_samples(&args.samples)?;
+    if args.data.is_some() {
+        return Err(Failure::input("--data: points lie over curves, not over a map; leave out one --over"));
+    }
     let (map, rows) = args.grid.map(across, up, &args.case)?;
     let grid = map.grid(across, &args.case)?;
     let (mut met, mut regions, mut laws) = (Vec::new(), Vec::new(), Vec::new());

@@ -58,6 +58,7 @@ pub(super) fn doubts(
         }
     }
     said.extend(scatter(&known.goodness));
+    said.extend(misfit(problem, model, known.goodness.freedom));
     said.extend(fates(problem, model));
     said.extend(disagreement(problem, known, bootstrap));
     if let Some(failed) = bootstrap.map(|b| b.failed).filter(|f| *f > 0) {
@@ -100,6 +101,51 @@ fn scatter(goodness: &Goodness) -> Option<String> {
     (chance > 1.0 - UNLIKELY).then(|| {
         format!("the points scatter less than their sigma says (reduced chi-square {chi_text}): sigma seems too large, and the errors too")
     })
+}
+
+/// Root mean square residuals beyond this no law that describes the data leaves.
+const FAR: f64 = 0.1;
+
+/// Beyond this they are judged by their order: neighbours that lie off to the same side.
+const OFF: f64 = 0.03;
+
+/// Where the law lies off the points by more than they scatter: by the residuals' size, against no law at all, and by neighbours (von
+/// Neumann's ratio of squared differences to squares, 2 for what is chance and far below for what is not).
+fn misfit(problem: &Problem<'_>, model: &[f64], freedom: usize) -> Option<String> {
+    if freedom == 0 {
+        return None;
+    }
+    let all = problem.observations.iter().zip(model);
+    // spheres that stayed have their own line
+    let mut told: Vec<_> =
+        all.filter(|(o, _)| o.value > 0.0).map(|(o, m)| (o.point.normal_speed(), o.value, o.value - m)).collect();
+    told.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let count = told.len() as f64;
+    let squares: f64 = told.iter().map(|t| t.2 * t.2).sum();
+    let rms = (squares / count).sqrt();
+    let mean = told.iter().map(|t| t.1).sum::<f64>() / count;
+    let spread = (told.iter().map(|t| (t.1 - mean) * (t.1 - mean)).sum::<f64>() / count).sqrt();
+    let steps: f64 = told.windows(2).map(|w| (w[1].2 - w[0].2) * (w[1].2 - w[0].2)).sum();
+    let why = if rms > FAR {
+        ""
+    } else if rms > OFF && rms >= spread {
+        ", no nearer than their own mean"
+    } else if rms > OFF && told.len() >= 6 && steps < 0.8 * squares {
+        ", neighbours to the same side"
+    } else {
+        return None;
+    };
+    let free = |key: Key| problem.free.iter().any(|f| f.parameter == key);
+    let work = if free(Key::WorkOfAdhesion) {
+        ""
+    } else {
+        "free work_of_adhesion (roughness_factor, at most 1, only lowers adhesion), or "
+    };
+    Some(format!(
+        "the law does not describe these points: it lies {} off them (rms){why}; {work}take a law with another loss, such as eap where \
+         restitution falls with speed",
+        significant(rms, 2)
+    ))
 }
 
 /// Points whose fate the law has wrong.

@@ -153,6 +153,11 @@ fn wrong(error: SheetError) -> SpecError {
     if help.is_empty() { error } else { error.help(help) }
 }
 
+/// Whether a name may be another one with a slip of the pen in it.
+fn is_slip(name: &str, known: &str) -> bool {
+    name.chars().next() == known.chars().next() && name.len().abs_diff(known.len()) <= 2
+}
+
 /// What each column is; none for one that nothing reads.
 fn columns(headings: &[Heading]) -> Result<Vec<Option<Column>>, SpecError> {
     let mut columns: Vec<Option<Column>> = Vec::with_capacity(headings.len());
@@ -160,7 +165,7 @@ fn columns(headings: &[Heading]) -> Result<Vec<Option<Column>>, SpecError> {
         let place = Some(heading.place.clone());
         let Some(name) = column(&heading.name) else {
             // what is nearly a name that is known is a slip, not a column of another kind
-            if let Some(near) = did_you_mean(&heading.name, COLUMNS) {
+            if let Some(near) = did_you_mean(&heading.name, COLUMNS.into_iter().filter(|c| is_slip(&heading.name, c))) {
                 let help = format!("{near} known are {}; the first line names the columns", COLUMNS.join(", "));
                 return Err(SpecError::new(format!("unknown column '{}'", clipped(&heading.written)))
                     .help(help)

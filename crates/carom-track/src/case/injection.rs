@@ -33,6 +33,7 @@ pub(super) fn read(
     index: usize,
     seed: u64,
     fluid: &Fluid,
+    slip: Slip,
     library: &Library,
 ) -> Result<Injected, SpecError> {
     let text = &at.value;
@@ -44,7 +45,7 @@ pub(super) fn read(
         Some(kind) => word(
             kind,
             "kind of diameter",
-            &[("geometric", Diameter::Geometric), ("aerodynamic", Diameter::Aerodynamic(Slip::Davies))],
+            &[("geometric", Diameter::Geometric), ("aerodynamic", Diameter::Aerodynamic(slip))],
         )?,
     };
     let (sizes, mut largest) = sizes(&text.diameter)?;

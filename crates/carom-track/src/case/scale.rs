@@ -13,8 +13,14 @@ const LONG: f64 = 1e3;
 /// What to say of a case's lengths.
 pub(super) fn notes(flow: &Flow, walls: &[Wall], injections: &[Injected]) -> Vec<String> {
     let mut notes = far_walls(walls, injections);
+    if walls.is_empty() {
+        notes.push("the case has no [[wall]]: nothing is met, and the end of the run alone ends a flight".to_owned());
+    }
     notes.extend(small_walls(walls, injections));
     if let Flow::Table(table) = flow {
+        let ([nx, ny, nz], [low, high]) = (table.size(), table.bounds());
+        let [x, y, z] = [0, 1, 2].map(|c| super::stl::length(high[c] - low[c]));
+        notes.push(format!("flow table: {nx} x {ny} x {nz} nodes, {x} x {y} x {z}"));
         notes.extend(table.notes().iter().map(|note| format!("flow table: {note}")));
         notes.extend(injections.iter().filter_map(|i| outside(table.bounds(), i)));
     }

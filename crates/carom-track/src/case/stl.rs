@@ -80,7 +80,7 @@ fn note(wall: &str, file: &str, read: &Stl, mesh: &Mesh) -> String {
 }
 
 /// A length to three digits.
-fn length(m: f64) -> String {
+pub(super) fn length(m: f64) -> String {
     let (factor, unit) = match m {
         m if m == 0.0 || m >= 1.0 => (1.0, "m"),
         m if m >= 1e-3 => (1e3, "mm"),

@@ -277,3 +277,18 @@ fn columns_of_a_table_are_named_in_the_case() {
         assert!(error.contains(wanted), "{error}");
     }
 }
+
+#[test]
+fn an_aerodynamic_diameter_has_the_slip_of_its_run() {
+    // 2 µm of 2000 kg/m3: √2 smaller without slip, 1.391 µm with Davies'
+    let text = |slip: &str| {
+        let sphere = "density = \"2000 kg/m3\"\ndiameter_kind = \"aerodynamic\"\ndiameter = \"2 um\"\n";
+        let line = |key: &str| GOOD.lines().find(|l| l.starts_with(key)).unwrap().to_owned() + "\n";
+        let text =
+            GOOD.replacen(&line("material = \"copper\""), sphere, 1).replacen(&line("diameter = \"90 um\""), "", 1);
+        text.replacen("[forces]\n", &format!("[forces]\nslip = \"{slip}\"\n"), 1)
+    };
+    let diameter = |slip: &str| read(&text(slip)).unwrap().particle(0).unwrap().diameter * 1e6;
+    assert!((diameter("none") - 2f64.sqrt()).abs() < 1e-9, "{}", diameter("none"));
+    assert!((diameter("davies") - 1.391).abs() < 1e-3, "{}", diameter("davies"));
+}

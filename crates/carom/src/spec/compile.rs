@@ -32,6 +32,10 @@ pub(super) fn law(b: &LawBuilder, spec: &NormalSpec, pair: Option<Pair>) -> Resu
         about: About {
             pair,
             roughness: b.roughness,
+            asperity_radius: match b.roughness_model {
+                Some(RoughnessModel::FullerTabor) if b.roughness_factor.is_none() => b.number(Key::AsperityRadius),
+                _ => None,
+            },
             roughness_factor: factor,
             spacing: b.equilibrium_spacing.unwrap_or(CALIBRATED_SPACING),
         },

@@ -77,7 +77,8 @@ impl WallLaw {
         Ok(Some(sign_change(1e-9, core::f64::consts::FRAC_PI_2, excess)))
     }
 
-    /// Tabor's parameter, its verdict and the adhesion parameter; `None` without materials that have a work of adhesion.
+    /// Tabor's parameter, its verdict and the adhesion parameter: the asperities' where Fuller & Tabor's C_R is in force, which it
+    /// decides, else the sphere's; `None` without materials that have a work of adhesion.
     ///
     /// # Errors
     /// A diameter out of range.
@@ -85,7 +86,15 @@ impl WallLaw {
         let size = self.size(diameter, None)?;
         let Some(pair) = &self.about.pair else { return Ok(None) };
         let (Ok(w), Ok(e_star)) = (pair.work_of_adhesion(), pair.effective_modulus()) else { return Ok(None) };
-        Ok((w > 0.0)
-            .then(|| adhesion_numbers(size.radius * size.kappa, w, e_star, self.about.spacing, self.about.roughness)))
+        let of = |radius| adhesion_numbers(radius, w, e_star, self.about.spacing, self.about.roughness);
+        Ok((w > 0.0).then(|| {
+            let sphere = of(size.radius * size.kappa);
+            match self.about.asperity_radius {
+                Some(radius) => {
+                    AdhesionNumbers { adhesion_parameter: of(radius).adhesion_parameter, asperities: true, ..sphere }
+                }
+                None => sphere,
+            }
+        }))
     }
 }

@@ -102,7 +102,7 @@ impl Chosen {
                 for l in 0..size[2] {
                     let n = place(i, 0) + source[0] * (place(j, 1) + source[1] * place(l, 2));
                     let holds = self.masks.iter().all(|(array, kind)| kind.holds(of(*array, n, 0)))
-                        && !hidden.is_some_and(|h| h.get(n) == Some(&true));
+                        && hidden.is_none_or(|h| h.get(n) != Some(&true));
                     valid.push(holds);
                     if !holds {
                         nodes.push(Node::default());
