@@ -28,7 +28,7 @@ Examples:
 
 At and below the capture velocity (normal to the wall) the sphere sticks.";
 
-/// The window of rebound: capture velocity, yield velocity, Tabor's parameter, for one diameter or a range
+/// Compute the capture velocity, yield velocity and Tabor's parameter, for one diameter or a range
 #[derive(clap::Args)]
 #[command(after_long_help = EXAMPLE)]
 pub struct Args {
@@ -98,6 +98,9 @@ fn one(args: &Args, case: &ImpactArgs) -> Result<(), Failure> {
     let mut lines = Lines::default();
     figures.tell(&mut lines);
     figures.compare(&mut lines);
+    if let Some(typical) = law.typical() {
+        lines.add("typical", typical);
+    }
     if let Some(removal) = &removal {
         removal.tell(&mut lines);
     }

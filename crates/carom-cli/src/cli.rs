@@ -16,8 +16,8 @@ Examples:
   carom validate --out report/
   carom export --format openfoam --wall-law walls.toml:glass --diameter 10um..100um --speed 0.1..30
 
-Quantities take a unit (90um, 2m/s, 190GPa) or are SI numbers. `carom SUBCOMMAND --help` says more.
-Exit codes: 0 done, 2 the input is wrong, 1 anything else.";
+Quantities take a unit (90um, 2m/s, 190GPa) or are SI numbers. Which law: docs/which-law.md. All flags: `carom SUBCOMMAND --help`.
+Exit codes: 0 success, 2 invalid input, 1 any other error.";
 
 /// On a terminal that takes colours; clap looks, and heeds NO_COLOR.
 const STYLES: Styles = Styles::styled()
@@ -26,7 +26,7 @@ const STYLES: Styles = Styles::styled()
     .literal(AnsiColor::Cyan.on_default().bold())
     .placeholder(AnsiColor::Cyan.on_default());
 
-/// What happens when a small particle hits a wall: does it stick or bounce, how fast, at what angle, with what spin
+/// Impacts of small particles on walls: capture or rebound, with the speed, angle and spin after the rebound
 #[derive(Parser)]
 #[command(name = "carom", version, after_help = EXAMPLES, max_term_width = 110, styles = STYLES, subcommand_required = true)]
 pub struct Cli {

@@ -21,7 +21,7 @@ Examples:
 A range may be a single value. Beside each condition stands its largest error against the law, in restitution, tangential
 restitution and outgoing velocity, and the share of impacts that stick and should bounce or the other way round.";
 
-/// A wall law as the wall conditions of a flow solver, for those who may not load a library
+/// Write a wall law as built-in wall conditions of a flow solver, without linking to carom
 #[derive(clap::Args)]
 #[command(after_long_help = EXAMPLE)]
 pub struct Args {

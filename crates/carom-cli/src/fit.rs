@@ -24,7 +24,7 @@ Examples:
 A file of points is CSV: speed (m/s), restitution (0 for a sphere that stayed), and where known diameter (m), angle (degrees from the
 surface), tangential_restitution, sigma (standard uncertainty of both restitutions). Lines that begin with # say where they come from.";
 
-/// Parameters of a wall law from measured restitution, with errors and what the data cannot tell
+/// Fit parameters of a wall law to measured restitution, with their uncertainty
 #[derive(clap::Args)]
 #[command(after_long_help = EXAMPLE)]
 pub struct Args {

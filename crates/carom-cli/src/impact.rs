@@ -20,7 +20,7 @@ Examples:
 
 Quantities take a unit (90um, 2m/s, 190GPa) or are SI numbers; angles are degrees from the surface.";
 
-/// One impact: does the sphere stick or bounce, how fast, at what angle, with what spin
+/// Compute one impact: capture or rebound, with the speed, angle and spin after the rebound
 #[derive(clap::Args)]
 #[command(after_long_help = EXAMPLE)]
 pub struct Args {
@@ -180,6 +180,9 @@ fn tell(answer: &Answer, law: &Law, motion: &Motion, met: &Met) -> String {
         lines.add("rough", format!("roughness angle {angle}: this is the impact on the median facet; e and the angles are against the mean wall"));
     }
     lines.add("energy", shares(met));
+    if let Some(typical) = law.typical() {
+        lines.add("typical", typical);
+    }
     warnings(law, motion, met).tell(&mut lines);
     text + &lines.to_string()
 }

@@ -9,7 +9,7 @@ use crate::motion::one_wanted;
 use crate::output;
 use crate::text::scaled;
 use crate::values;
-use carom::material::Library;
+use carom::material::{Library, Material};
 use carom::spec::{Key, LawSpec, NormalKind, NormalSpec, parse_named_law};
 use carom::study::Distribution;
 use carom::{LawError, WallLaw};
@@ -294,6 +294,20 @@ impl Law {
     /// The surface's material.
     pub fn surface(&self) -> Option<String> {
         self.wall.pair().map(|p| p.surface().name.clone())
+    }
+
+    /// The materials' values that are only typical: `poisson ratio of lactose`.
+    pub fn typical(&self) -> Option<String> {
+        let pair = self.wall.pair()?;
+        let of = |m: &Material| {
+            let marked = m.properties.iter().filter(|(_, p)| p.typical.is_some());
+            let names: Vec<String> = marked.map(|(kind, _)| kind.key().replace('_', " ")).collect();
+            (!names.is_empty()).then(|| format!("{} of {}", names.join(", "), m.name))
+        };
+        let (sphere, surface) = (pair.sphere(), pair.surface());
+        let other = (sphere.name != surface.name).then(|| of(surface)).flatten();
+        let found: Vec<String> = of(sphere).into_iter().chain(other).collect();
+        (!found.is_empty()).then(|| format!("{}: usual values, without a source for this material", found.join("; ")))
     }
 
     /// The normal law's name, or its losses.

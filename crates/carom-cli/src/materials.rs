@@ -24,11 +24,11 @@ A file of your own holds tables such as
   yield_strength = \"310 MPa\"
   hardness = \"1.3 GPa\"";
 
-/// The materials known, or one of them with every value, range and source
+/// List the materials, or show one with every value, range and source
 #[derive(clap::Args)]
 #[command(after_long_help = EXAMPLE)]
 pub struct Args {
-    /// A material's name or alias; all are listed without it
+    /// A material's name or alias; without it all are listed
     name: Option<String>,
     #[command(flatten)]
     materials: MaterialsArgs,
@@ -75,6 +75,8 @@ struct Value<'a> {
     low: Option<f64>,
     high: Option<f64>,
     source: Option<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    typical: Option<&'a str>,
     note: Option<&'a str>,
     printed: Option<&'a str>,
     alternatives: Vec<Other<'a>>,
@@ -116,6 +118,7 @@ fn value(kind: PropertyKind, p: &Property) -> Value<'_> {
         low: p.low,
         high: p.high,
         source: p.source.as_deref(),
+        typical: p.typical.as_deref(),
         note: p.note.as_deref(),
         printed: p.printed.as_deref(),
         alternatives: p
@@ -187,13 +190,16 @@ fn tell(material: &Material) -> String {
     }
     for (kind, property) in &material.properties {
         let name = kind.key().replace('_', " ");
-        let _ = writeln!(text, "\n{name:15} {}", range(*kind, Some(property.value), property.low, property.high));
+        let typical = if property.typical.is_some() { ", typical" } else { "" };
+        let shown = range(*kind, Some(property.value), property.low, property.high);
+        let _ = writeln!(text, "\n{name:15} {shown}{typical}");
         let mut line = |label: &str, content: &Option<String>| {
             if let Some(content) = content {
                 let _ = writeln!(text, "  {label:14}{}", wrapped(content, 100, 16));
             }
         };
         line("source", &property.source);
+        line("typical", &property.typical);
         line("printed", &property.printed);
         line("note", &property.note);
         for a in &property.alternatives {

@@ -13,7 +13,7 @@ Example, a run in two parts:
 
 The folder then holds what `carom run case.toml --out whole/` would have written, to the bit.";
 
-/// Puts the shards of a run together
+/// Merge the shards of a run
 #[derive(clap::Args)]
 #[command(after_long_help = EXAMPLE)]
 pub struct Args {

@@ -23,7 +23,7 @@ The folder then holds report.html, summary.json, every impact (impacts.csv) and 
 (trajectories.csv, .vtp and .svg) and the deposit (deposition.csv, deposit.vtp). The results do not depend on threads,
 interruptions or shards; `carom merge` puts shards together.";
 
-/// Particles through a flow, from injection to fate, as a case file says
+/// Track particles through a flow as a case file describes it
 #[derive(clap::Args)]
 #[command(after_long_help = EXAMPLE)]
 pub struct Args {

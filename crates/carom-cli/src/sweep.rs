@@ -36,13 +36,13 @@ scatters (--roughness-angle).
 
 The table goes to standard output unless a file is asked for with --out or --plot.";
 
-/// Many impacts along a range of speeds, diameters, angles or numbers of the law: a table, a plot, a map
+/// Compute impacts over a range of speeds, diameters, angles or numbers of the law: a table, plot or map
 #[derive(clap::Args)]
 #[command(after_long_help = EXAMPLE)]
 pub struct Args {
     #[command(flatten)]
     case: ImpactArgs,
-    /// What runs, with its range: speed=0.1m/s..30m/s, diameter=1um..100um, angle=5..90, friction=0..0.5, or any other
+    /// What to vary, with its range: speed=0.1m/s..30m/s, diameter=1um..100um, angle=5..90, friction=0..0.5, or any other
     /// number of the impact or the law
     ///
     /// Given twice it is a map: the regions of capture, rebound and rebound with yield.

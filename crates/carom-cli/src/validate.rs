@@ -18,7 +18,7 @@ Examples:
 A file of points is named after its experiment, wall-1990.csv for wall-1990. A folder of experiments holds a file AUTHOR-YEAR.toml each. Measured points go into AUTHOR-YEAR.csv beside it, with the columns
 speed and restitution, and where wanted diameter, angle, sigma and panel.";
 
-/// How far the models are from experiments: a table, and a report with every plot
+/// Compare the models with experiments: a table, and a report with every plot
 #[derive(clap::Args)]
 #[command(after_long_help = EXAMPLE)]
 pub struct Args {

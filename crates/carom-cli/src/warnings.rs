@@ -1,4 +1,4 @@
-//! What to mind about one answer: a line a code, with the numbers where there are some.
+//! The warnings about one answer: one line per code, with the numbers where there are some.
 
 use crate::failure::Failure;
 use crate::text::Lines;
@@ -61,9 +61,9 @@ impl Warnings {
             }
             match &self.above_yield {
                 Some(numbers) if bit == Validity::ABOVE_YIELD => {
-                    lines.add("mind", format!("{code}: the law has no plastic loss, but {numbers}"));
+                    lines.add("warning", format!("{code}: the law has no plastic loss, but {numbers}"));
                 }
-                _ => lines.add("mind", format!("{code}: {meaning}")),
+                _ => lines.add("warning", format!("{code}: {meaning}")),
             }
         }
     }

@@ -31,7 +31,7 @@ pub fn one(fit: &Fit, title: &str, json: bool) -> Result<(), Failure> {
         let what = serde_json::to_value(b.resampling).ok().and_then(|v| v.as_str().map(str::to_owned));
         lines.add("bootstrap", format!("{} resamples of {}, seed {}", b.resamples, what.unwrap_or_default(), b.seed));
     }
-    fit.warnings.iter().for_each(|w| lines.add("mind", w.as_str()));
+    fit.warnings.iter().for_each(|w| lines.add("warning", w.as_str()));
     let _ = write!(text, "\n{lines}");
     output::print(&text)
 }

@@ -88,7 +88,7 @@ fn text(found: &[Surveyed]) -> Result<String, Failure> {
     text += "\nIn brackets: 95 % intervals.\n";
     for subject in found {
         for warning in &subject.fit.warnings {
-            let _ = writeln!(text, "mind {}: {warning}", subject.name);
+            let _ = writeln!(text, "warning {}: {warning}", subject.name);
         }
     }
     Ok(text)

@@ -139,6 +139,8 @@ pub struct Property {
     pub high: Option<f64>,
     /// Where the value comes from.
     pub source: Option<String>,
+    /// What a usual value without a citable source rests on, in place of the source.
+    pub typical: Option<String>,
     /// Why it was corrected, or how the nominal value was chosen.
     pub note: Option<String>,
     /// The value as printed in the source, where that is a misprint.

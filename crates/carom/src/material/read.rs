@@ -9,7 +9,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 const ABOUT: [&str; 3] = ["description", "aliases", "note"];
-const PROPERTY: [&str; 7] = ["value", "low", "high", "source", "note", "printed", "alternatives"];
+const PROPERTY: [&str; 8] = ["value", "low", "high", "source", "typical", "note", "printed", "alternatives"];
 const ALTERNATIVE: [&str; 5] = ["value", "low", "high", "source", "note"];
 
 fn unknown(what: &'static str, key: &At<String>, known: Vec<&'static str>) -> LawError {
@@ -75,6 +75,7 @@ fn property(kind: PropertyKind, at: &At<Value>) -> Result<Property, LawError> {
             "low" => property.low = Some(number(at)?),
             "high" => property.high = Some(number(at)?),
             "source" => property.source = Some(text("source", at)?),
+            "typical" => property.typical = Some(text("typical", at)?),
             "note" => property.note = Some(text("note", at)?),
             "printed" => property.printed = Some(text("printed", at)?),
             "alternatives" => property.alternatives = alternatives(kind, at)?,
