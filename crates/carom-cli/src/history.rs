@@ -9,8 +9,8 @@ use carom::resolved::{Moment, Scales};
 use carom::tangential::Tangential;
 use carom_report::{Axis, Column, Plot, Series, Table};
 
-/// Moments in each integration step: enough for a smooth line.
-const PER_STEP: usize = 24;
+/// Moments at least: enough for a smooth line, and for the jump at the turn, where adhesion sets in, to stand upright.
+const MOMENTS: usize = 600;
 
 /// The contact's moments; only the resolved law has them.
 pub fn moments(law: &Law, motion: &Motion) -> Result<Vec<Moment>, Failure> {
@@ -32,7 +32,7 @@ pub fn moments(law: &Law, motion: &Motion) -> Result<Vec<Moment>, Failure> {
         _ => 0.0,
     };
     let (normal, tangential) = motion.components();
-    Ok(resolved.history(normal, &size, &scales, tangential - radius * motion.spin, friction, PER_STEP))
+    Ok(resolved.history(normal, &size, &scales, tangential - radius * motion.spin, friction, MOMENTS))
 }
 
 /// One row a moment.

@@ -56,5 +56,5 @@ fn titles_say_what_all_curves_have_in_common() {
     let svg = drawn("capture --sphere copper --over diameter=1um..100um --by surface=glass,steel --points 9");
     assert!(svg.contains("\ncopper spheres, ea\n"));
     let svg = drawn("capture --sphere copper --surface glass --over diameter=1um..100um --by law=ea,eap --points 9");
-    assert!(svg.contains("\ncopper on glass\n"));
+    assert!(svg.contains("\ncopper on soda-lime-glass\n"));
 }

@@ -51,7 +51,7 @@ impl fmt::Display for Made {
 
 /// Year, month and day so many days after 1970-01-01.
 fn date(mut days: u64) -> [u64; 3] {
-    let leap = |year: u64| year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
+    let leap = |year: u64| year.is_multiple_of(4) && (!year.is_multiple_of(100) || year.is_multiple_of(400));
     // the calendar repeats every 400 years
     let mut year = 1970 + 400 * (days / 146_097);
     days %= 146_097;

@@ -15,10 +15,8 @@ const STYLES: [Dash; 3] = [Dash::Solid, Dash::Dashed, Dash::Dotted];
 /// The series as drawn. A line that was given a dash or is one of many thin ones stays as it is.
 pub(super) fn styled(series: &[Series], frame: &Frame) -> Vec<Series> {
     let mut styled = series.to_vec();
-    let mut automatic = 0;
-    for series in styled.iter_mut().filter(|s| s.color.is_none()) {
-        let round = automatic / Color::PALETTE.len();
-        automatic += 1;
+    for (number, series) in styled.iter_mut().filter(|s| s.color.is_none()).enumerate() {
+        let round = number / Color::PALETTE.len();
         if let Shape::Line { dash, .. } = &mut series.shape
             && *dash == Dash::Solid
         {
