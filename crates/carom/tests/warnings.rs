@@ -53,6 +53,9 @@ fn the_warning_begins_at_eaps_own_yield_velocity_for_every_pair() {
             let eap = law(&format!("{pair}normal = \"eap\"\n"));
             for diameter in [1e-7, 3e-5, 1e-3] {
                 let v_y = eap.yield_velocity(diameter, Some(1234.0)).expect("in range").expect("plastic");
+                if v_y > 1e5 {
+                    continue; // rubber against metal: faster than any impact
+                }
                 for (v, above) in [(v_y * (1.0 - 1e-12), false), (v_y * (1.0 + 1e-12), true)] {
                     let mut impact = Impact::new(diameter, [0.0, -v, 0.0], [0.0, 1.0, 0.0]);
                     impact.density = Some(1234.0);
