@@ -328,7 +328,8 @@ impl Grid<'_> {
             Some(title) => Plot { title: title.clone(), ..plot() },
             None => plot(),
         };
-        self.show_drawn(files, whole, short, |path| plot().write(path))
+        let plot = files.drawn(plot)?;
+        self.show_drawn(files, whole, short, |path| plot.map_or(Ok(()), |plot| plot.write(path)))
     }
 
     /// Likewise, with what draws the picture.

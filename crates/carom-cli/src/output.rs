@@ -67,9 +67,15 @@ impl<'a> Files<'a> {
         table: impl FnOnce() -> Result<Table, Failure>,
         plot: impl FnOnce() -> Plot,
     ) -> Result<(), Failure> {
-        // a frame without a curve tells nobody anything
-        let plot = self.plot.map(|path| (path, plot()));
-        if let Some((path, _)) = plot.as_ref().filter(|(_, plot)| plot.is_empty()) {
+        let plot = self.drawn(plot)?;
+        self.write_drawn(table, |path| plot.map_or(Ok(()), |plot| plot.write(path)))
+    }
+
+    /// The plot, if a file for it is named; one that would be an empty frame is refused.
+    pub fn drawn(&self, plot: impl FnOnce() -> Plot) -> Result<Option<Plot>, Failure> {
+        let Some(path) = self.plot else { return Ok(None) };
+        let plot = plot();
+        if plot.is_empty() {
             return Err(Failure::input(format!(
                 "{}: not written, for it would be empty: no point has a value that its axes can show. What is captured has \
                  no rebound, head-on impacts have no tangential restitution or impulse ratio (give --angle or --spin), and 0 has \
@@ -77,7 +83,7 @@ impl<'a> Files<'a> {
                 path.display()
             )));
         }
-        self.write_drawn(table, |path| plot.map_or(Ok(()), |(_, plot)| plot.write(path)))
+        Ok(Some(plot))
     }
 
     /// Likewise, with what draws the picture.
