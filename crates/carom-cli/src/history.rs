@@ -17,7 +17,7 @@ pub fn moments(law: &Law, motion: &Motion) -> Result<Vec<Moment>, Failure> {
     let (NormalLaw::Resolved(resolved), Some(pair)) = (law.wall.normal(), law.wall.pair()) else {
         return Err(Failure::input("--history and --plot show a contact in time, which only --law resolved follows"));
     };
-    let constant = |c: Result<f64, carom::SpecError>| c.map_err(|e| Failure::input(e.to_string()));
+    let constant = |c: Result<f64, carom::LawError>| c.map_err(|e| Failure::input(e.to_string()));
     let scales = Scales { stiffness: constant(pair.stiffness())?, density: constant(pair.density())? };
     let radius = 0.5 * motion.diameter;
     let curvature = law.spec.surface_curvature.as_ref().map_or(0.0, |r| 1.0 / r.value.0);

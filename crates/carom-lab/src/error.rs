@@ -1,6 +1,6 @@
 //! What can be wrong with an experiment's files, the data of a fit, or the report's folder.
 
-use carom::SpecError;
+use carom::LawError;
 use carom_report::{ReportError, TableError};
 use std::path::PathBuf;
 
@@ -16,7 +16,7 @@ pub enum LabError {
         /// Its text.
         text: String,
         /// What is wrong, where.
-        error: SpecError,
+        error: LawError,
     },
     /// A computed wind tunnel's walls, laws and injections do not match.
     #[error(transparent)]
@@ -32,11 +32,11 @@ pub enum LabError {
         /// Its text.
         text: String,
         /// What is wrong, where.
-        error: Box<SpecError>,
+        error: Box<LawError>,
     },
     /// What was asked of a fit makes no sense for its law or its data.
     #[error("{0}")]
-    Fit(SpecError),
+    Fit(LawError),
     /// A file or folder cannot be read or written.
     #[error("{}: {source}", .path.display())]
     File {

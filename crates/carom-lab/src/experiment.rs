@@ -35,7 +35,7 @@ use crate::error::LabError;
 use carom::material::Library;
 use carom::spec::{At, parse_named_law};
 use carom::units::{Length, Number, Speed};
-use carom::{SpecError, WallLaw};
+use carom::{LawError, WallLaw};
 use serde::{Deserialize, Serialize};
 
 /// How much a comparison is worth, the best first.
@@ -270,7 +270,7 @@ impl Experiment {
     /// What is wrong with the text, where.
     pub fn from_toml(name: &str, text: &str) -> Result<Self, LabError> {
         let wrong = |error| LabError::Experiment { name: format!("{name}.toml"), text: text.to_owned(), error };
-        let file: File = toml::from_str(text).map_err(|e| wrong(SpecError::from(e)))?;
+        let file: File = toml::from_str(text).map_err(|e| wrong(LawError::from(e)))?;
         let experiment = Self {
             name: name.to_owned(),
             text: text.to_owned(),
@@ -292,20 +292,20 @@ impl Experiment {
     }
 
     /// Checks what serde cannot.
-    pub(crate) fn check(&self) -> Result<(), SpecError> {
+    pub(crate) fn check(&self) -> Result<(), LawError> {
         for (n, panel) in self.panels.iter().enumerate() {
             let [from, to] = panel.range;
             let end = if panel.over == Over::Angle { 90.0 } else { f64::MAX };
             if !(from > 0.0 && from < to && to <= end) {
                 let help = "two positive numbers, the smaller first; angles up to 90 degrees";
-                return Err(SpecError::new(format!("panel {}: range [{from}, {to}]", panel.name)).help(help));
+                return Err(LawError::new(format!("panel {}: range [{from}, {to}]", panel.name)).help(help));
             }
             if self.panels[..n].iter().any(|p| p.name == panel.name) {
-                return Err(SpecError::new(format!("two panels named {}", panel.name)).help("give each its own name"));
+                return Err(LawError::new(format!("two panels named {}", panel.name)).help("give each its own name"));
             }
             if panel.over == Over::Angle && panel.speed.is_none() {
                 let message = format!("panel {} runs over angle and has no speed", panel.name);
-                return Err(SpecError::new(message).help("give one, such as speed = \"5 m/s\""));
+                return Err(LawError::new(message).help("give one, such as speed = \"5 m/s\""));
             }
             panel.measured.iter().try_for_each(|m| m.check(panel))?;
         }
@@ -331,7 +331,7 @@ impl Experiment {
     }
 
     /// An error in this experiment's text.
-    pub(crate) fn wrong(&self, error: SpecError) -> LabError {
+    pub(crate) fn wrong(&self, error: LawError) -> LabError {
         LabError::Experiment { name: format!("{}.toml", self.name), text: self.text.clone(), error }
     }
 }

@@ -18,7 +18,7 @@
 //! let request = Request { law: &wall, title: "constant", range, bins: 1, speed_bins: 1 };
 //! let text = export(&request, &Target::OpenFoam { patch: "walls" }).expect("it answers");
 //! assert!(text.contains("e    0.7;") && text.contains("mu   0.1;"));
-//! # Ok::<(), carom::SpecError>(())
+//! # Ok::<(), carom::LawError>(())
 //! ```
 
 pub mod comsol;

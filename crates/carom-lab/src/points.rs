@@ -6,7 +6,7 @@
 
 use crate::error::LabError;
 use crate::experiment::{Experiment, Measured, Over, Panel, Quantity};
-use carom::SpecError;
+use carom::LawError;
 use carom::spec::At;
 
 mod reader;
@@ -45,7 +45,7 @@ const QUANTITIES: [(Quantity, &str); 3] = [
 /// # Ok::<(), carom_lab::LabError>(())
 /// ```
 pub fn add(experiment: &mut Experiment, name: &str, text: &str) -> Result<(), LabError> {
-    let wrong = |e: SpecError| LabError::Points(e.located(name, text));
+    let wrong = |e: LawError| LabError::Points(e.located(name, text));
     let Rows { said, rows, .. } = read(text).map_err(wrong)?;
     let source = if said.is_empty() { name.to_owned() } else { format!("{name}: {said}") };
     let mut found: Vec<Vec<Row>> = experiment.panels.iter().map(|_| Vec::new()).collect();

@@ -2,7 +2,7 @@
 //! are those of Table 1 for all but quartz.
 
 use crate::error::LabError;
-use carom::SpecError;
+use carom::LawError;
 use carom::material::Library;
 use carom::pair::{Overrides, Pair};
 use carom::units::{Pressure, SurfaceEnergy};
@@ -54,7 +54,7 @@ pub fn rows(library: &Library) -> Result<Vec<Row>, LabError> {
     let file: File = toml::from_str(TEXT).map_err(|e| LabError::Experiment {
         name: "kim-dunn-2007-pairs.toml".into(),
         text: TEXT.into(),
-        error: SpecError::from(e),
+        error: LawError::from(e),
     })?;
     let row = |printed: Printed| {
         // quartz is in no table of the paper; the library has a material of that name from elsewhere

@@ -24,7 +24,7 @@ use crate::injection::Start;
 use crate::tables::TableFormat;
 use crate::tracker::{Behavior, Particle, Settings, SettleHeight, Tracker};
 use carom::material::{Library, Material};
-use carom::{Impact, SpecError};
+use carom::{Impact, LawError};
 use check::{positive, wrong};
 use files::Files;
 use std::ops::Range;
@@ -32,7 +32,7 @@ use std::path::{Path, PathBuf};
 use text::{CaseText, OutputText, RunText, Si};
 
 /// What is wrong in a case file, where, and what would be right.
-pub type CaseError = SpecError;
+pub type CaseError = LawError;
 
 /// A checked case, ready to run.
 #[derive(Debug)]
@@ -94,7 +94,7 @@ impl Case {
             .map(|(i, at)| injection::read(at, i, seed, &fluid, dynamics.forces.slip, library))
             .collect::<Result<Vec<_>, _>>()?;
         if injections.is_empty() {
-            return Err(SpecError::new("the case injects nothing").help("add an [[injection]]"));
+            return Err(LawError::new("the case injects nothing").help("add an [[injection]]"));
         }
         countable(&injections)?;
         injection::distinct(read.injection.iter().filter_map(|i| i.value.name.as_ref()), "injection")?;
@@ -194,7 +194,7 @@ fn materials(read: &CaseText, laws: &wall::Laws, library: &Library) -> Vec<Mater
 /// Particles are counted one by one, and JSON's readers keep no more digits.
 const MOST_PARTICLES: u64 = 1 << 53;
 
-fn countable(injections: &[Injected]) -> Result<(), SpecError> {
+fn countable(injections: &[Injected]) -> Result<(), LawError> {
     let mut all = 0u64;
     for injected in injections {
         all = all.saturating_add(injected.injection.count());
@@ -202,14 +202,14 @@ fn countable(injections: &[Injected]) -> Result<(), SpecError> {
             let message = format!("{} makes {} particles or more in all", injected.name, MOST_PARTICLES + 1);
             let help =
                 "at most 2^53 (9007199254740992) can be counted: give fewer, each with a weight (mass and parcels)";
-            return Err(SpecError::new(message).help(help).at(injected.place.clone()));
+            return Err(LawError::new(message).help(help).at(injected.place.clone()));
         }
     }
     Ok(())
 }
 
 /// Laws that no wall uses must be right too.
-fn unused_laws(read: &CaseText, laws: &wall::Laws, library: &Library) -> Result<(), SpecError> {
+fn unused_laws(read: &CaseText, laws: &wall::Laws, library: &Library) -> Result<(), LawError> {
     for (name, law) in laws {
         if wall::WORDS.contains(&name.as_str()) {
             let message = format!("a law may not be called '{name}'");
@@ -223,13 +223,13 @@ fn unused_laws(read: &CaseText, laws: &wall::Laws, library: &Library) -> Result<
     Ok(())
 }
 
-fn settings(read: &CaseText, seed: u64, behaviors: &[Behavior]) -> Result<Settings, SpecError> {
+fn settings(read: &CaseText, seed: u64, behaviors: &[Behavior]) -> Result<Settings, LawError> {
     let default = RunText::default();
     let run = read.run.as_ref().map_or(&default, |r| &r.value);
     let until = run.until.as_ref().map(|u| positive(u, "until", u.value.0)).transpose()?;
     let way_out = behaviors.iter().any(|b| matches!(b, Behavior::Trap | Behavior::Escape));
     if until.is_none() && !way_out {
-        let error = SpecError::new("nothing ends this run: neither until nor a wall that traps or lets escape");
+        let error = LawError::new("nothing ends this run: neither until nor a wall that traps or lets escape");
         return Err(error.help("give until = \"2 s\" in [run]").at(read.run.as_ref().and_then(|r| r.span.clone())));
     }
     let tolerance = match &run.tolerance {
@@ -250,7 +250,7 @@ fn settings(read: &CaseText, seed: u64, behaviors: &[Behavior]) -> Result<Settin
 }
 
 /// The first spheres of each injection, as they will be: in the fluid, and fit for the laws of the walls.
-fn sampled_starts(walls: &[Wall], injections: &[Injected], behaviors: &[Behavior]) -> Result<(), SpecError> {
+fn sampled_starts(walls: &[Wall], injections: &[Injected], behaviors: &[Behavior]) -> Result<(), LawError> {
     const SAMPLE: u64 = 1000;
     for (index, injected) in injections.iter().enumerate() {
         for i in 0..injected.injection.count().min(SAMPLE) {
@@ -259,7 +259,7 @@ fn sampled_starts(walls: &[Wall], injections: &[Injected], behaviors: &[Behavior
                 let reach = 0.5 * start.diameter;
                 if wall.shape.distance(start.position) - wall.clearance(reach) < -1e-9 * reach {
                     let (name, wall, x, d) = (&injected.name, &wall.name, start.position, start.diameter);
-                    return Err(SpecError::new(format!(
+                    return Err(LawError::new(format!(
                         "{name} starts inside wall '{wall}': a sphere of {d} m at {x:?} m"
                     ))
                     .help("a normal points out of the wall into the fluid; a sphere needs one radius of room")
@@ -271,7 +271,7 @@ fn sampled_starts(walls: &[Wall], injections: &[Injected], behaviors: &[Behavior
                 let trial = Impact { density, ..Impact::new(start.diameter, [0.0, -1.0, 0.0], [0.0, 1.0, 0.0]) };
                 if let Err(e) = law.impact(&trial) {
                     let message = format!("{} does not fit the law of wall '{}': {e}", injected.name, wall.name);
-                    return Err(SpecError::new(message).at(injected.place.clone()));
+                    return Err(LawError::new(message).at(injected.place.clone()));
                 }
             }
         }
@@ -279,7 +279,7 @@ fn sampled_starts(walls: &[Wall], injections: &[Injected], behaviors: &[Behavior
     Ok(())
 }
 
-fn bins(output: &OutputText) -> Result<Bins, SpecError> {
+fn bins(output: &OutputText) -> Result<Bins, LawError> {
     injection::distinct(output.region.iter().map(|r| &r.value.name), "region")?;
     let mut sizes = Vec::new();
     if let Some(at) = &output.size_bins {
@@ -299,7 +299,7 @@ fn bins(output: &OutputText) -> Result<Bins, SpecError> {
 }
 
 /// No sphere may start inside a wall.
-fn injected_in_the_fluid(walls: &[Wall], injections: &[Injected], behaviors: &[Behavior]) -> Result<(), SpecError> {
+fn injected_in_the_fluid(walls: &[Wall], injections: &[Injected], behaviors: &[Behavior]) -> Result<(), LawError> {
     for injected in injections {
         let plan = injected.injection.plan();
         for x in injection::hull(&plan.source) {
@@ -312,7 +312,7 @@ fn injected_in_the_fluid(walls: &[Wall], injections: &[Injected], behaviors: &[B
                         "{} starts {what} wall '{}': at {x:?} m a sphere of {} m reaches {:.3e} m into it",
                         injected.name, wall.name, injected.largest, -gap
                     );
-                    return Err(SpecError::new(message)
+                    return Err(LawError::new(message)
                         .help("a normal points out of the wall into the fluid; a sphere needs one radius of room")
                         .at(injected.place.clone()));
                 }
@@ -321,7 +321,7 @@ fn injected_in_the_fluid(walls: &[Wall], injections: &[Injected], behaviors: &[B
         if let Start::Velocity(v) = plan.velocity
             && !v.iter().all(|c| c.abs() < 1e6)
         {
-            return Err(SpecError::new(format!("{} starts at {v:?} m/s", injected.name))
+            return Err(LawError::new(format!("{} starts at {v:?} m/s", injected.name))
                 .help("below 1e6 m/s is wanted")
                 .at(injected.place.clone()));
         }

@@ -81,8 +81,6 @@ mod vector;
 pub mod wall;
 
 pub use error::LawError;
-#[doc(hidden)]
-pub use error::LawError as SpecError;
 pub use impact::{Energy, Fate, Impact, ImpactError, Outcome, Vec3};
 pub use normal::Window;
 pub use tangential::Contact;

@@ -21,7 +21,7 @@
 //! }).expect("all of them impacts");
 //! let sticking = study.sticking[0];
 //! assert!(sticking.low < sticking.value && sticking.value < sticking.high);
-//! # Ok::<(), carom::SpecError>(())
+//! # Ok::<(), carom::LawError>(())
 //! ```
 
 mod distribution;

@@ -1,7 +1,7 @@
 //! Values that a panel's models are held against: measured points and stated numbers.
 
 use super::Panel;
-use carom::SpecError;
+use carom::LawError;
 use serde::{Deserialize, Serialize};
 
 /// Measured points, in arrays of one length.
@@ -51,7 +51,7 @@ impl Measured {
         }
     }
 
-    pub(super) fn check(&self, panel: &Panel) -> Result<(), SpecError> {
+    pub(super) fn check(&self, panel: &Panel) -> Result<(), LawError> {
         let wanted = self.value.len();
         let columns = [
             ("speed", &self.speed),
@@ -64,11 +64,11 @@ impl Measured {
             if !column.is_empty() && column.len() != wanted {
                 let message =
                     format!("measured points of {}: {} of {name} for {wanted} values", panel.name, column.len());
-                return Err(SpecError::new(message).help("give one for each value, or none"));
+                return Err(LawError::new(message).help("give one for each value, or none"));
             }
         }
         if self.source.is_empty() {
-            return Err(SpecError::new(format!("measured points of {} without a source", panel.name)));
+            return Err(LawError::new(format!("measured points of {} without a source", panel.name)));
         }
         let mut points = (0..wanted).map(|n| self.point(n, panel.speed.map(|s| s.0)));
         if points.any(|p| !(p.speed > 0.0 && p.angle_deg > 0.0 && p.angle_deg <= 90.0 && p.value.is_finite())) {
@@ -76,7 +76,7 @@ impl Measured {
                 "measured points of {}: speeds must be positive, angles above 0 and up to 90 degrees",
                 panel.name
             );
-            return Err(SpecError::new(message).help("a panel over angle may give one speed for all"));
+            return Err(LawError::new(message).help("a panel over angle may give one speed for all"));
         }
         Ok(())
     }

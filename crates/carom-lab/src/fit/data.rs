@@ -2,7 +2,7 @@
 
 use crate::error::LabError;
 use crate::points::{Row, read};
-use carom::SpecError;
+use carom::LawError;
 use serde::Serialize;
 
 /// A measured impact.
@@ -67,7 +67,7 @@ impl Data {
         }
         if points.is_empty() {
             let help = "a line of column names such as speed,restitution and a line for each impact are wanted";
-            return Err(wrong(SpecError::new("no points").help(help)));
+            return Err(wrong(LawError::new("no points").help(help)));
         }
         let with = points.iter().filter(|p| p.sigma.is_some()).count();
         if let Some(row) = rows.rows.iter().find(|r| r.sigma.is_none()).filter(|_| with > 0) {
@@ -94,7 +94,7 @@ impl Data {
     }
 }
 
-fn measurement(row: &Row, text: &str, diameter: Option<f64>) -> Result<Measurement, SpecError> {
+fn measurement(row: &Row, text: &str, diameter: Option<f64>) -> Result<Measurement, LawError> {
     let speed = row.speed.as_ref().ok_or_else(|| row.wrong("a point without a speed", "give one, in m/s"))?;
     let given = row.diameter.as_ref().map(|d| d.value).or(diameter);
     let diameter = given.ok_or_else(|| {
@@ -106,7 +106,7 @@ fn measurement(row: &Row, text: &str, diameter: Option<f64>) -> Result<Measureme
         // noise may lift a value a little above 1
         if let Some(at) = value.as_ref().filter(|at| !(low..=1.2).contains(&at.value)) {
             let help = format!("it lies between {low} and 1 (0: the sphere stayed), up to noise");
-            return Err(SpecError::new(format!("{name} {}", at.value)).help(help).at(at.span.clone()));
+            return Err(LawError::new(format!("{name} {}", at.value)).help(help).at(at.span.clone()));
         }
     }
     if row.restitution.is_none() && row.tangential_restitution.is_none() {
@@ -115,12 +115,12 @@ fn measurement(row: &Row, text: &str, diameter: Option<f64>) -> Result<Measureme
     let angle_deg = row.angle.as_ref().map_or(90.0, |a| a.value);
     if let Some(at) = row.tangential_restitution.as_ref().filter(|_| angle_deg == 90.0) {
         let help = "give the angle from the surface, in degrees, or leave the value out";
-        return Err(SpecError::new("a tangential restitution at 90 degrees, where nothing moves along the wall")
+        return Err(LawError::new("a tangential restitution at 90 degrees, where nothing moves along the wall")
             .help(help)
             .at(at.span.clone()));
     }
     Ok(Measurement {
-        line: SpecError::new("").at(Some(row.span.clone())).line_column(text).map_or(0, |(line, _)| line),
+        line: LawError::new("").at(Some(row.span.clone())).line_column(text).map_or(0, |(line, _)| line),
         speed: speed.value,
         angle_deg,
         diameter,

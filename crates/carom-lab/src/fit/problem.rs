@@ -7,7 +7,7 @@ use crate::error::LabError;
 use crate::experiment::Quantity;
 use carom::material::{Library, MaterialRef};
 use carom::spec::LawSpec;
-use carom::{SpecError, WallLaw, error::ErrorKind, spec::Key};
+use carom::{LawError, WallLaw, error::ErrorKind, spec::Key};
 use nalgebra::DMatrix;
 use std::ops::RangeInclusive;
 
@@ -84,7 +84,7 @@ impl<'a> Problem<'a> {
 
     /// Refuses what cannot be found from these data.
     fn check(&self, data: &Data) -> Result<(), LabError> {
-        let refuse = |message: String, help: String| Err(LabError::Fit(SpecError::new(message).help(help)));
+        let refuse = |message: String, help: String| Err(LabError::Fit(LawError::new(message).help(help)));
         if self.law.scatters() {
             let message = "the law scatters (roughness_angle), and a fit needs one answer to each impact".to_owned();
             return refuse(message, "fit the smooth wall: roughness_angle = 0, or --roughness-angle 0".to_owned());
@@ -215,7 +215,7 @@ impl<'a> Problem<'a> {
 }
 
 /// The law with its materials looked up and reduced to numbers.
-fn bare(law: &LawSpec, library: &Library) -> Result<LawSpec, SpecError> {
+fn bare(law: &LawSpec, library: &Library) -> Result<LawSpec, LawError> {
     let mut law = law.clone();
     for body in [&mut law.sphere, &mut law.surface].into_iter().flatten() {
         let mut material = body.value.resolve(library).map_err(|e| e.at(body.span.clone()))?;
@@ -234,7 +234,7 @@ fn given(wall: &WallLaw, o: &Observation) -> Result<f64, LabError> {
 }
 
 fn refused(o: &Observation, error: carom::ImpactError) -> LabError {
-    LabError::Fit(SpecError::new(format!("line {}: {error}", o.point.line)))
+    LabError::Fit(LawError::new(format!("line {}: {error}", o.point.line)))
 }
 
 fn names() -> String {

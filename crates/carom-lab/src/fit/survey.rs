@@ -6,7 +6,7 @@ use super::{Data, Fit, Free, Key, Measurement, Options, fit};
 use crate::error::LabError;
 use crate::experiment::{Experiment, Over, Panel, Quantity};
 use crate::points;
-use carom::SpecError;
+use carom::LawError;
 use carom::material::Library;
 use carom::spec::{LawSpec, parse_named_law};
 use carom::units::Number;
@@ -60,7 +60,7 @@ pub fn read(path: &Path, diameter: Option<f64>) -> Result<Vec<Subject>, LabError
     }
     let name = path.display().to_string();
     let text = read_file(path)?;
-    let wrong = |error: SpecError| LabError::Data { name: name.clone(), text: text.clone(), error: Box::new(error) };
+    let wrong = |error: LawError| LabError::Data { name: name.clone(), text: text.clone(), error: Box::new(error) };
     let file: File = toml::from_str(&text).map_err(|e| wrong(e.into()))?;
     let stem = path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
     let mut subjects = Vec::new();
@@ -92,7 +92,7 @@ pub fn read(path: &Path, diameter: Option<f64>) -> Result<Vec<Subject>, LabError
         } else {
             format!("beside it, {wanted} would be read")
         };
-        return Err(LabError::Fit(SpecError::new(format!("{name}: no data for any of its laws")).help(help)));
+        return Err(LabError::Fit(LawError::new(format!("{name}: no data for any of its laws")).help(help)));
     }
     Ok(subjects)
 }
@@ -119,7 +119,7 @@ fn of_panel(experiment: &Experiment, panel: &Panel, diameter: Option<f64>) -> Re
     let mut points = Vec::new();
     for p in panel.points() {
         let diameter = p.diameter.or(one).ok_or_else(|| {
-            let error = SpecError::new(format!("{name}: a point without a diameter, and curves of several"));
+            let error = LawError::new(format!("{name}: a point without a diameter, and curves of several"));
             LabError::Fit(error.help("add a column diameter, in m"))
         })?;
         points.push(Measurement {
@@ -148,7 +148,7 @@ pub fn survey(
 ) -> Result<Vec<Surveyed>, LabError> {
     let mut found = Vec::with_capacity(subjects.len());
     for subject in subjects {
-        let named = |error: SpecError| LabError::Fit(error.within(&subject.name));
+        let named = |error: LawError| LabError::Fit(error.within(&subject.name));
         let mut law = subject.law.clone();
         if law.friction.is_none() && law.reads(Key::Friction) {
             law.friction = Some(Number(0.0).into());

@@ -6,7 +6,7 @@
 use carom::error::did_you_mean;
 use carom::spec::At;
 use carom::units::{Angle, Length, Number, Speed};
-use carom::{SpecError, units::UnitError};
+use carom::{LawError, units::UnitError};
 use carom_table::{Heading, Sheet, SheetError, SheetProblem, clipped};
 use std::ops::Range;
 
@@ -91,8 +91,8 @@ fn column(name: &str) -> Option<&'static str> {
 ///
 /// # Errors
 /// A file that is no text.
-pub fn text(bytes: &[u8]) -> Result<String, SpecError> {
-    carom_table::sheet::text(bytes).map(std::borrow::Cow::into_owned).map_err(SpecError::new)
+pub fn text(bytes: &[u8]) -> Result<String, LawError> {
+    carom_table::sheet::text(bytes).map(std::borrow::Cow::into_owned).map_err(LawError::new)
 }
 
 /// Reads a text.
@@ -106,13 +106,13 @@ pub fn text(bytes: &[u8]) -> Result<String, SpecError> {
 /// let text = "speed,restitution\n2,0.9\n3,high\n";
 /// let error = carom_lab::points::read(text).unwrap_err();
 /// assert_eq!(error.line_column(text), Some((3, 3)));
-/// # Ok::<(), carom::SpecError>(())
+/// # Ok::<(), carom::LawError>(())
 /// ```
-pub fn read(text: &str) -> Result<Rows, SpecError> {
+pub fn read(text: &str) -> Result<Rows, LawError> {
     // places are of the text as given
     let mark = text.len() - text.trim_start_matches('\u{feff}').len();
     let text = &text[mark..];
-    let shifted = |mut e: SpecError| {
+    let shifted = |mut e: LawError| {
         e.span = e.span.map(|s| s.start + mark..s.end + mark);
         e
     };
@@ -122,7 +122,7 @@ pub fn read(text: &str) -> Result<Rows, SpecError> {
     })
 }
 
-fn read_bare(text: &str) -> Result<Rows, SpecError> {
+fn read_bare(text: &str) -> Result<Rows, LawError> {
     let sheet = Sheet::read(text.as_bytes(), &|name| column(name).is_some()).map_err(wrong)?;
     let columns = columns(sheet.headings())?;
     let mut rows = Vec::new();
@@ -135,7 +135,7 @@ fn read_bare(text: &str) -> Result<Rows, SpecError> {
     Ok(Rows { said: sheet.comments().collect::<Vec<_>>().join(" "), left_out, rows })
 }
 
-fn wrong(error: SheetError) -> SpecError {
+fn wrong(error: SheetError) -> LawError {
     let help = match &error.problem {
         SheetProblem::Fields { .. } => "give one for each column; an empty one where there is none",
         SheetProblem::Empty | SheetProblem::NoNames => {
@@ -149,7 +149,7 @@ fn wrong(error: SheetError) -> SpecError {
         SheetProblem::Empty => "no points".to_owned(),
         other => other.to_string(),
     };
-    let error = SpecError::new(message).at(Some(error.place));
+    let error = LawError::new(message).at(Some(error.place));
     if help.is_empty() { error } else { error.help(help) }
 }
 
@@ -159,7 +159,7 @@ fn is_slip(name: &str, known: &str) -> bool {
 }
 
 /// What each column is; none for one that nothing reads.
-fn columns(headings: &[Heading]) -> Result<Vec<Option<Column>>, SpecError> {
+fn columns(headings: &[Heading]) -> Result<Vec<Option<Column>>, LawError> {
     let mut columns: Vec<Option<Column>> = Vec::with_capacity(headings.len());
     for heading in headings {
         let place = Some(heading.place.clone());
@@ -167,7 +167,7 @@ fn columns(headings: &[Heading]) -> Result<Vec<Option<Column>>, SpecError> {
             // what is nearly a name that is known is a slip, not a column of another kind
             if let Some(near) = did_you_mean(&heading.name, COLUMNS.into_iter().filter(|c| is_slip(&heading.name, c))) {
                 let help = format!("{near} known are {}; the first line names the columns", COLUMNS.join(", "));
-                return Err(SpecError::new(format!("unknown column '{}'", clipped(&heading.written)))
+                return Err(LawError::new(format!("unknown column '{}'", clipped(&heading.written)))
                     .help(help)
                     .at(place));
             }
@@ -175,19 +175,19 @@ fn columns(headings: &[Heading]) -> Result<Vec<Option<Column>>, SpecError> {
             continue;
         };
         if columns.iter().flatten().any(|c| c.name == name) {
-            return Err(SpecError::new(format!("a second column {name}")).help("keep one").at(place));
+            return Err(LawError::new(format!("a second column {name}")).help("keep one").at(place));
         }
         let factor = match &heading.unit {
             None => 1.0,
             Some(unit) => factor(name, unit)
-                .map_err(|e| SpecError::new(format!("column '{}': {e}", clipped(&heading.written))).at(place))?,
+                .map_err(|e| LawError::new(format!("column '{}': {e}", clipped(&heading.written))).at(place))?,
         };
         columns.push(Some(Column { name, factor }));
     }
     if columns.iter().all(Option::is_none) {
         let all: Vec<_> = headings.iter().map(|h| format!("'{}'", clipped(&h.written))).take(20).collect();
         let place = headings.first().map(|h| h.place.clone());
-        return Err(SpecError::new(format!("no column is known among {}", all.join(", ")))
+        return Err(LawError::new(format!("no column is known among {}", all.join(", ")))
             .help(format!("known are {}; a line names the columns", COLUMNS.join(", ")))
             .at(place));
     }
@@ -206,7 +206,7 @@ fn factor(name: &str, unit: &str) -> Result<f64, UnitError> {
     })
 }
 
-fn row(reader: &mut carom_table::sheet::Rows, columns: &[Option<Column>]) -> Result<Row, SpecError> {
+fn row(reader: &mut carom_table::sheet::Rows, columns: &[Option<Column>]) -> Result<Row, LawError> {
     let mut row = Row { span: reader.row().place.clone(), ..Row::default() };
     for (index, column) in columns.iter().enumerate() {
         let Some(column) = column else { continue };
@@ -251,15 +251,15 @@ impl Row {
     }
 
     /// An error at the line.
-    pub fn wrong(&self, message: impl Into<String>, help: &str) -> SpecError {
-        let error = SpecError::new(message).at(Some(self.span.clone()));
+    pub fn wrong(&self, message: impl Into<String>, help: &str) -> LawError {
+        let error = LawError::new(message).at(Some(self.span.clone()));
         if help.is_empty() { error } else { error.help(help) }
     }
 
-    fn check(&self) -> Result<(), SpecError> {
+    fn check(&self) -> Result<(), LawError> {
         let outside = |field: &Option<At<f64>>, name: &str, fits: fn(f64) -> bool, help: &str| match field {
             Some(at) if !fits(at.value) => {
-                Err(SpecError::new(format!("{name} {}", at.value)).help(help).at(at.span.clone()))
+                Err(LawError::new(format!("{name} {}", at.value)).help(help).at(at.span.clone()))
             }
             _ => Ok(()),
         };

@@ -6,14 +6,14 @@ use super::text::{FlowText, FluidText, ForcesText, Si};
 use crate::dynamics::Dynamics;
 use crate::flow::{Channel, Flow, Fluid, Named, Pipe, Profile, RoundJet, SlotJet, Stagnation, Symmetry, Table};
 use crate::force::{Drag, Forces, Life, NearWall, RandomWalk, Slip};
-use carom::SpecError;
+use carom::LawError;
 use carom::spec::At;
 use carom_table::quoted;
 
 const ATMOSPHERE: f64 = 101_325.0;
 
 /// Air at 24 °C where nothing else is said.
-pub(super) fn fluid(text: Option<&At<FluidText>>) -> Result<Fluid, SpecError> {
+pub(super) fn fluid(text: Option<&At<FluidText>>) -> Result<Fluid, LawError> {
     let Some(text) = text else { return Ok(Fluid::default()) };
     let mut fluid = match &text.temperature {
         Some(t) if text.density.is_none() || text.viscosity.is_none() => {
@@ -41,7 +41,7 @@ const PROFILES: [(&str, Profile); 3] =
     [("plug", Profile::Plug), ("laminar", Profile::Laminar), ("turbulent", Profile::Turbulent)];
 
 /// The flow; still where none is given. Files are looked for beside the case.
-pub(super) fn flow(text: Option<&At<FlowText>>, fluid: &Fluid, files: &Files) -> Result<Flow, SpecError> {
+pub(super) fn flow(text: Option<&At<FlowText>>, fluid: &Fluid, files: &Files) -> Result<Flow, LawError> {
     let Some(text) = text else { return Ok(Flow::Still) };
     let kind = text.kind.value.as_str();
     refuse_others(text, kind)?;
@@ -90,7 +90,7 @@ pub(super) fn flow(text: Option<&At<FlowText>>, fluid: &Fluid, files: &Files) ->
 }
 
 /// The columns of a table as the case names them.
-fn named(text: Option<&At<Named>>) -> Result<Named, SpecError> {
+fn named(text: Option<&At<Named>>) -> Result<Named, LawError> {
     let Some(at) = text else { return Ok(Named::new()) };
     match at.value.keys().find(|key| !COLUMNS.contains(&key.as_str())) {
         Some(key) => Err(wrong(at, format!("columns has no {}", quoted(key)))
@@ -100,7 +100,7 @@ fn named(text: Option<&At<Named>>) -> Result<Named, SpecError> {
 }
 
 /// A key that this kind of flow does not have is a mistake, not a decoration.
-fn refuse_others(text: &At<FlowText>, kind: &str) -> Result<(), SpecError> {
+fn refuse_others(text: &At<FlowText>, kind: &str) -> Result<(), LawError> {
     let given = [
         ("velocity", text.velocity.as_ref().map(|a| a.span.clone())),
         ("profile", text.profile.as_ref().map(|a| a.span.clone())),
@@ -136,14 +136,14 @@ fn refuse_others(text: &At<FlowText>, kind: &str) -> Result<(), SpecError> {
             } else {
                 format!("its keys are {}", keys.join(", "))
             };
-            return Err(SpecError::new(format!("a {kind} flow has no {key}")).help(right).at(span));
+            return Err(LawError::new(format!("a {kind} flow has no {key}")).help(right).at(span));
         }
     }
     Ok(())
 }
 
 /// The forces; without the table, Schiller–Naumann drag and no gravity.
-pub(super) fn dynamics(text: &ForcesText, fluid: Fluid) -> Result<Dynamics, SpecError> {
+pub(super) fn dynamics(text: &ForcesText, fluid: Fluid) -> Result<Dynamics, LawError> {
     const DRAGS: [(&str, Drag); 4] = [
         ("none", Drag::None),
         ("stokes", Drag::Stokes),
@@ -174,7 +174,7 @@ pub(super) fn dynamics(text: &ForcesText, fluid: Fluid) -> Result<Dynamics, Spec
 pub(super) const SLIPS: [(&str, Slip); 3] =
     [("none", Slip::None), ("davies", Slip::Davies), ("allen-raabe", Slip::AllenRaabe)];
 
-fn random_walk(text: &ForcesText) -> Result<Option<RandomWalk>, SpecError> {
+fn random_walk(text: &ForcesText) -> Result<Option<RandomWalk>, LawError> {
     const WALLS: [(&str, NearWall); 3] = [
         ("isotropic", NearWall::Isotropic),
         ("wang-james", NearWall::WangJames),

@@ -7,7 +7,7 @@ use crate::force::Slip;
 use crate::injection::{
     Amount, By, Diameter, Injection, InjectionError, Plan, Sizes, Source, Start, Window, geometric_diameter,
 };
-use carom::SpecError;
+use carom::LawError;
 use carom::material::{Library, MaterialRef};
 use carom::spec::At;
 use std::ops::Range;
@@ -35,7 +35,7 @@ pub(super) fn read(
     fluid: &Fluid,
     slip: Slip,
     library: &Library,
-) -> Result<Injected, SpecError> {
+) -> Result<Injected, LawError> {
     let text = &at.value;
     let name = text.name.as_ref().map_or_else(|| format!("injection {}", index + 1), |n| n.value.clone());
     let number = u32::try_from(index).map_err(|_| wrong(at, "too many injections"))?;
@@ -80,7 +80,7 @@ pub(super) fn read(
 }
 
 /// The key that an injection's error is about.
-fn blame(at: &At<InjectionText>, error: &InjectionError) -> SpecError {
+fn blame(at: &At<InjectionText>, error: &InjectionError) -> LawError {
     let (InjectionError::Value { name, .. } | InjectionError::Shape { name, .. }) = error;
     let text = &at.value;
     let about = |words: &[&str]| words.iter().any(|w| name.contains(w));
@@ -106,10 +106,10 @@ fn blame(at: &At<InjectionText>, error: &InjectionError) -> SpecError {
     } else {
         text.diameter.span.clone()
     };
-    SpecError::new(error.to_string()).at(span)
+    LawError::new(error.to_string()).at(span)
 }
 
-fn density(at: &At<InjectionText>, library: &Library) -> Result<f64, SpecError> {
+fn density(at: &At<InjectionText>, library: &Library) -> Result<f64, LawError> {
     let material =
         at.value.material.as_ref().map(|m| m.value.resolve(library).map_err(|e| e.at(m.span.clone()))).transpose()?;
     if let Some(density) = &at.value.density {
@@ -123,7 +123,7 @@ fn density(at: &At<InjectionText>, library: &Library) -> Result<f64, SpecError> 
         .ok_or_else(|| wrong(at, format!("{} has no density in the library", material.name)).help("give density"))
 }
 
-fn amount(at: &At<InjectionText>) -> Result<Amount, SpecError> {
+fn amount(at: &At<InjectionText>) -> Result<Amount, LawError> {
     let text = &at.value;
     let parcels = || {
         text.parcels
@@ -145,7 +145,7 @@ fn amount(at: &At<InjectionText>) -> Result<Amount, SpecError> {
 }
 
 /// The distribution, and the largest diameter to reckon with: of an endless tail, five standard deviations.
-fn sizes(at: &At<SizeText>) -> Result<(Sizes, f64), SpecError> {
+fn sizes(at: &At<SizeText>) -> Result<(Sizes, f64), LawError> {
     let text: &SizesText = match &at.value {
         SizeText::One(d) => return Ok((Sizes::Mono(positive(at, "diameter", *d)?), *d)),
         SizeText::Distribution(text) => text,
@@ -175,7 +175,7 @@ fn sizes(at: &At<SizeText>) -> Result<(Sizes, f64), SpecError> {
     }
 }
 
-fn place(at: &At<PlaceText>) -> Result<Source, SpecError> {
+fn place(at: &At<PlaceText>) -> Result<Source, LawError> {
     let text: &PlacesText = match &at.value {
         PlaceText::Point(p) => return Ok(Source::Point(*p)),
         PlaceText::Place(text) => text,
@@ -217,7 +217,7 @@ pub(super) fn hull(source: &Source) -> Vec<[f64; 3]> {
 }
 
 /// A name that no other has.
-pub(super) fn distinct<'a>(names: impl Iterator<Item = &'a At<String>>, what: &str) -> Result<(), SpecError> {
+pub(super) fn distinct<'a>(names: impl Iterator<Item = &'a At<String>>, what: &str) -> Result<(), LawError> {
     let mut seen: Vec<&str> = Vec::new();
     for name in names {
         if seen.contains(&name.value.as_str()) {
@@ -233,7 +233,7 @@ pub(super) fn distinct<'a>(names: impl Iterator<Item = &'a At<String>>, what: &s
 }
 
 /// The law a wall names, or the words that are no law.
-pub(super) fn no_such_law<'a>(text: &At<String>, laws: impl Iterator<Item = &'a String>) -> SpecError {
+pub(super) fn no_such_law<'a>(text: &At<String>, laws: impl Iterator<Item = &'a String>) -> LawError {
     let words = super::wall::WORDS.iter().copied();
     unknown(text, "wall law", laws.map(String::as_str).chain(words))
 }

@@ -4,7 +4,7 @@ use super::check::{positive, word, wrong};
 use super::text::WallText;
 use crate::flow::{Flow, Fluid};
 use crate::tracker::{Behavior, Removal};
-use carom::SpecError;
+use carom::LawError;
 use carom::removal::{self, Mode};
 use carom::spec::At;
 use carom::units::Speed;
@@ -59,7 +59,7 @@ pub(super) fn with_removal(
     flow: &Flow,
     fluid: &Fluid,
     diameter: f64,
-) -> Result<Behavior, SpecError> {
+) -> Result<Behavior, LawError> {
     let Some(at) = text.removal.as_ref().filter(|r| r.value.wanted) else { return Ok(behavior) };
     let Behavior::Law(laws) = behavior else {
         let message = format!("removal beside law = \"{}\", which holds nothing by adhesion", text.law.value);

@@ -5,13 +5,13 @@ use super::files::Files;
 use super::text::StlText;
 use crate::geometry::stl::{self, Stl};
 use crate::geometry::{Mesh, Triangle};
-use carom::SpecError;
+use carom::LawError;
 use carom::spec::At;
 use carom_table::clipped;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Triangles from an STL file, text or binary, and a note of what they are; numbers are in metres unless a unit is given.
-pub(super) fn mesh(at: &At<StlText>, wall: &str, files: &Files) -> Result<(Mesh, String), SpecError> {
+pub(super) fn mesh(at: &At<StlText>, wall: &str, files: &Files) -> Result<(Mesh, String), LawError> {
     let file = &at.value.file;
     let unit = at.value.unit.as_ref().map_or(Ok(1.0), |u| positive(u, "unit", u.value.0))?;
     let failed = |e: &dyn std::fmt::Display| wrong(file, format!("{}: {e}", file.value));
@@ -54,7 +54,7 @@ pub(super) fn left_out<'a>(walls: impl Iterator<Item = &'a At<StlText>>, files: 
 }
 
 /// The triangles of the solids of a name.
-fn chosen(read: &Stl, solid: &At<String>) -> Result<Vec<Triangle>, SpecError> {
+fn chosen(read: &Stl, solid: &At<String>) -> Result<Vec<Triangle>, LawError> {
     let named = read.solids.iter().filter(|s| s.name == solid.value);
     let triangles: Vec<Triangle> = named.flat_map(|s| read.triangles[s.triangles.clone()].iter().copied()).collect();
     if triangles.is_empty() {

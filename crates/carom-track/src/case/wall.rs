@@ -8,7 +8,7 @@ use crate::domain::{ContactAt, Wall};
 use crate::geometry::{Cylinder, Mesh, Plane, Room, Shape};
 use crate::tracker::Behavior;
 use crate::vector::{dot, norm, scale, sub, unit};
-use carom::SpecError;
+use carom::LawError;
 use carom::material::{Library, MaterialRef};
 use carom::spec::{At, LawSpec, NormalKind, NormalSpec, TangentialKind};
 use std::collections::BTreeMap;
@@ -20,7 +20,7 @@ pub(super) const WORDS: [&str; 4] = ["trap", "escape", "wall-jet", "reflect"];
 pub(super) type Laws = BTreeMap<String, At<LawSpec>>;
 
 /// The geometry of a wall. What files were read for it is added to `notes`.
-pub(super) fn read(at: &At<WallText>, files: &Files, notes: &mut Vec<String>) -> Result<Wall, SpecError> {
+pub(super) fn read(at: &At<WallText>, files: &Files, notes: &mut Vec<String>) -> Result<Wall, LawError> {
     let text = &at.value;
     let shape = shape(at, files, notes)?;
     let contacts = [("surface", ContactAt::Surface), ("center", ContactAt::Center)];
@@ -29,7 +29,7 @@ pub(super) fn read(at: &At<WallText>, files: &Files, notes: &mut Vec<String>) ->
     Ok(Wall { name: text.name.value.clone(), shape, contact_at, velocity })
 }
 
-fn shape(at: &At<WallText>, files: &Files, notes: &mut Vec<String>) -> Result<Shape, SpecError> {
+fn shape(at: &At<WallText>, files: &Files, notes: &mut Vec<String>) -> Result<Shape, LawError> {
     let text = &at.value;
     let name = &text.name.value;
     let mut shapes = Vec::new();
@@ -71,7 +71,7 @@ fn shape(at: &At<WallText>, files: &Files, notes: &mut Vec<String>) -> Result<Sh
     }
 }
 
-fn corners(at: &At<[[carom::units::Length; 3]; 2]>) -> Result<([f64; 3], [f64; 3]), SpecError> {
+fn corners(at: &At<[[carom::units::Length; 3]; 2]>) -> Result<([f64; 3], [f64; 3]), LawError> {
     let (a, b) = (at.value[0].si(), at.value[1].si());
     match (0..3).find(|i| a[*i] >= b[*i]) {
         None => Ok((a, b)),
@@ -82,14 +82,14 @@ fn corners(at: &At<[[carom::units::Length; 3]; 2]>) -> Result<([f64; 3], [f64; 3
     }
 }
 
-fn direction(at: &At<[f64; 3]>, key: &str) -> Result<[f64; 3], SpecError> {
+fn direction(at: &At<[f64; 3]>, key: &str) -> Result<[f64; 3], LawError> {
     unit(at.value).ok_or_else(|| {
         wrong(at, format!("{key} has no direction: {:?}", at.value)).help("give a finite vector that is not zero")
     })
 }
 
 /// A wall may slide along itself, not leave its place.
-fn velocity(text: &WallText, shape: &Shape) -> Result<[f64; 3], SpecError> {
+fn velocity(text: &WallText, shape: &Shape) -> Result<[f64; 3], LawError> {
     let Some(at) = &text.velocity else { return Ok([0.0; 3]) };
     let v = at.value.si();
     if !v.iter().all(|c| c.is_finite()) {
@@ -113,7 +113,7 @@ pub(super) fn behavior(
     laws: &Laws,
     injections: &[Injected],
     library: &Library,
-) -> Result<Behavior, SpecError> {
+) -> Result<Behavior, LawError> {
     let text = &at.value;
     let name = text.law.value.as_str();
     if name != "reflect"
@@ -135,7 +135,7 @@ pub(super) fn behavior(
 }
 
 /// Fluent's and OpenFOAM's reflection: restitution of the centre, normal and tangential, spin untouched.
-fn reflect(at: &At<WallText>, library: &Library) -> Result<Behavior, SpecError> {
+fn reflect(at: &At<WallText>, library: &Library) -> Result<Behavior, LawError> {
     let text = &at.value;
     let restitution = needed(&text.restitution, at, "restitution", "law = \"reflect\"")?;
     let tangential = needed(&text.tangential_restitution, at, "tangential_restitution", "law = \"reflect\"")?;
@@ -156,7 +156,7 @@ fn reflect(at: &At<WallText>, library: &Library) -> Result<Behavior, SpecError> 
 }
 
 /// Spheres of a run slip along their walls.
-fn checked(spec: &LawSpec, library: &Library) -> Result<carom::WallLaw, SpecError> {
+fn checked(spec: &LawSpec, library: &Library) -> Result<carom::WallLaw, LawError> {
     let law = spec.compile(library)?;
     law.require_friction()?;
     Ok(law)
@@ -169,8 +169,8 @@ fn compile(
     law: &At<LawSpec>,
     injections: &[Injected],
     library: &Library,
-) -> Result<Vec<carom::WallLaw>, SpecError> {
-    let place = |e: SpecError| e.at(law.span.clone());
+) -> Result<Vec<carom::WallLaw>, LawError> {
+    let place = |e: LawError| e.at(law.span.clone());
     let spec = &law.value;
     if let Some(sphere) = &spec.sphere {
         for injected in injections {
@@ -181,7 +181,7 @@ fn compile(
                     "law '{name}' is for spheres of {a}, but {} injects {b} towards wall '{}'",
                     injected.name, text.name.value
                 );
-                return Err(SpecError::new(message)
+                return Err(LawError::new(message)
                     .help("leave sphere out of the law: each injection then brings its own")
                     .at(sphere.span.clone()));
             }
@@ -201,7 +201,7 @@ fn compile(
 }
 
 /// Walls that leave no room for a sphere between them.
-pub(super) fn contradictions(texts: &[At<WallText>], walls: &[Wall], largest: f64) -> Result<(), SpecError> {
+pub(super) fn contradictions(texts: &[At<WallText>], walls: &[Wall], largest: f64) -> Result<(), LawError> {
     let planes = |w: &Wall| match &w.shape {
         Shape::Plane(p) => vec![*p],
         Shape::Room(room) => room.faces().to_vec(),

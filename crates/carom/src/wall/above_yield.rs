@@ -69,7 +69,7 @@ impl WallLaw {
     /// let warning = wall.above_yield(100.0, 200e-6, None).expect("in range").expect("far above");
     /// assert!(warning.to_string().starts_with("the yield velocity is 0.3825 m/s (from the yield strength of carbon-steel, a bulk,"));
     /// assert!((warning.yield_velocity - 0.382).abs() < 1e-3 && (warning.restitution - 0.326).abs() < 1e-3);
-    /// # Ok::<(), carom::SpecError>(())
+    /// # Ok::<(), carom::LawError>(())
     /// ```
     pub fn above_yield(
         &self,
