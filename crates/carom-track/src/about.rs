@@ -90,7 +90,10 @@ impl About {
             }
             _ => None,
         });
-        let outlines = case.domain.walls().iter().filter_map(|wall| {
+        let trajectories = case.recorded().map(|numbers| numbers.end - numbers.start).sum();
+        // only pictures of paths show them, and those of many triangles take a while
+        let seen = if trajectories > 0 { case.domain.walls() } else { &[] };
+        let outlines = seen.iter().filter_map(|wall| {
             let lines = match &wall.shape {
                 Shape::Mesh(mesh) => outline(mesh),
                 Shape::Room(r) => {
@@ -113,7 +116,7 @@ impl About {
             cylinders: cylinders.collect(),
             outlines: outlines.collect(),
             size_bins: case.bins.sizes.clone(),
-            trajectories: case.recorded().map(|numbers| numbers.end - numbers.start).sum(),
+            trajectories,
             injections: injections.collect(),
         }
     }

@@ -41,6 +41,8 @@ pub(crate) struct Recording<'a> {
     pub forms: [Forms; LAYOUTS.len()],
     pub sorter: Sorter,
     pub words: Words,
+    /// Numbers of the particles whose paths are wanted.
+    recorded: Vec<Range<u64>>,
     /// Where rows go beyond as many bytes as may be held of a block.
     pub aside: PathBuf,
     pub most: usize,
@@ -72,7 +74,9 @@ impl<'a> Recording<'a> {
     pub fn new(case: &'a Case, forms: [Forms; LAYOUTS.len()], aside: PathBuf, most: usize) -> Self {
         let walls = case.domain.walls().iter().map(|w| w.name.clone());
         let injections = case.injections.iter().map(|i| i.name.clone());
-        Self { case, forms, sorter: Sorter::new(&case.bins), words: Words::new(walls, injections), aside, most }
+        let (sorter, words, recorded) =
+            (Sorter::new(&case.bins), Words::new(walls, injections), case.recorded().collect());
+        Self { case, forms, sorter, words, recorded, aside, most }
     }
 
     /// Rows of a table as they are wanted.
@@ -197,7 +201,7 @@ impl Sink for Collector<'_> {
         let mass = particle.mass();
         self.summary.start(mass);
         self.own(particle.number).mass = mass;
-        self.wants(TRAJECTORIES) && self.recording.case.recorded().any(|numbers| numbers.contains(&particle.number))
+        self.wants(TRAJECTORIES) && self.recording.recorded.iter().any(|numbers| numbers.contains(&particle.number))
     }
 
     fn impact(&mut self, impact: &ImpactRecord) {

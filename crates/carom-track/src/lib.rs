@@ -69,6 +69,8 @@ pub mod record;
 pub mod run;
 pub mod summary;
 pub mod tables;
+#[cfg(test)]
+mod testing;
 pub mod tracker;
 pub(crate) mod vector;
 

@@ -140,7 +140,7 @@ impl Tracker<'_> {
     ) -> Result<(), TrackerError> {
         let injections = self.injections()?;
         let mut refused = None;
-        let mut known = particles.map_while(|p| {
+        let taken = particles.map_while(|p| {
             if p.injection >= injections {
                 refused =
                     Some(TrackerError::Injection { particle: p.number, injection: p.injection, laws: injections });
@@ -149,7 +149,7 @@ impl Tracker<'_> {
             Some(p)
         });
         // lanes ask again after the end
-        let mut known = known.by_ref().fuse();
+        let mut known = taken.fuse();
         match self.domain {
             AnyDomain::Analytic(domain) => set.run(Flight { walk: self.walk(domain), particles: &mut known, sink }),
         }

@@ -235,6 +235,7 @@ pub(super) fn plate(x: [f64; 3], local: Local) -> Local {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::testing::runge_kutta;
 
     fn check_gradient(velocity: impl Fn([f64; 3]) -> [f64; 3], local: Local, x: [f64; 3], h: f64) {
         let size = local.gradient.iter().flatten().fold(1.0f64, |m, g| m.max(g.abs()));
@@ -293,12 +294,7 @@ mod tests {
         let h = 0.01;
         let mut s = [start, height, 0.0, -1.0];
         for _ in 0..4000 {
-            let step = |s: [f64; 4], k: [f64; 4], h: f64| std::array::from_fn(|i| s[i] + h * k[i]);
-            let k1 = rate(s);
-            let k2 = rate(step(s, k1, 0.5 * h));
-            let k3 = rate(step(s, k2, 0.5 * h));
-            let k4 = rate(step(s, k3, h));
-            s = std::array::from_fn(|i| s[i] + h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]));
+            s = runge_kutta(s, h, rate);
             if s[1] <= 0.0 {
                 return true;
             }

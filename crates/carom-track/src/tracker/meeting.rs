@@ -221,8 +221,7 @@ impl<D: Domain> Walk<'_, D> {
             return false;
         }
         (body.eddy, body.kick) = ([None], [[0.0]; 3]);
-        let a = self.rates_at(here, &body, x, along, after.spin).a;
-        let press = -(n[0] * a[0][0] + n[1] * a[1][0] + n[2] * a[2][0]);
+        let press = self.press(here, &body, x, along, after.spin, n);
         if self.dynamics.brownian && press * height <= self.thermal_energy(&body) {
             // the molecules lift it higher than that again
             return false;
@@ -248,9 +247,15 @@ impl<D: Domain> Walk<'_, D> {
         let height = self.settings.settle_height.of(radius).max(LOWEST * radius);
         let along = sub(after.velocity, scale(n, up));
         let here = (crew.here[l], crew.time[l]);
-        let a = self.rates_at(here, &crew.bodies.one(l), hit.meeting.position, along, after.spin).a;
-        let press = -(n[0] * a[0][0] + n[1] * a[1][0] + n[2] * a[2][0]);
+        let press = self.press(here, &crew.bodies.one(l), hit.meeting.position, along, after.spin, n);
         press > 0.0 && up * up < 2.0 * height * press
+    }
+
+    /// The acceleration with which the forces on `body` press it against a wall, m/s².
+    #[inline(always)]
+    fn press(&self, here: (D::Here, f64), body: &Bodies<1>, x: Vec3, v: Vec3, spin: Vec3, normal: Vec3) -> f64 {
+        let a = self.rates_at(here, body, x, v, spin).a;
+        -(normal[0] * a[0][0] + normal[1] * a[1][0] + normal[2] * a[2][0])
     }
 
     /// The acceleration with which eddies of the usual strength lift a sphere off a wall, m/s².

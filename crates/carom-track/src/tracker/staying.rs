@@ -61,18 +61,14 @@ impl<D: Domain> Walk<'_, D> {
                 Ending::Leaves(event) => break (Some(event), None),
                 Ending::Meets(hit) => {
                     blows += 1;
-                    let m = contact.motion;
-                    crew.lanes[l].impacts += 1;
-                    let after = self.outcome(crew, l, &hit, m.v, m.spin);
+                    let (before, after, stays) = self.strike(crew, l, &mut contact, &hit);
                     let ends = after.event.ends();
-                    let stays = contact.goes_on(Motion { v: after.velocity, spin: after.spin, ..m });
                     let wedged = blows > WEDGED;
                     if ends.is_some() || !(stays || wedged) {
                         let off = contact.left_by();
                         self.end_row(crew, l, &contact, began, off, sink);
                     }
-                    put(crew, l, m.x, after.velocity, after.spin);
-                    sink.impact(&record(&crew.lanes[l], crew.time[l], &hit, m.v, m.spin, &after));
+                    self.struck(crew, l, &hit, &before, &after, sink);
                     match ends {
                         Some(fate) => return finish(crew, l, fate, Some(hit.wall), sink),
                         None if wedged => break (Some(Event::Settle), Some(Fate::Settled)),
@@ -133,8 +129,9 @@ impl<D: Domain> Walk<'_, D> {
                 }
                 Ending::TimeIsUp | Ending::Leaves(_) => break,
                 Ending::Meets(other) => {
-                    let (stays, ends) = self.blow(crew, l, &mut contact, &other, sink);
-                    if let Some(fate) = ends {
+                    let (before, struck, stays) = self.strike(crew, l, &mut contact, &other);
+                    self.struck(crew, l, &other, &before, &struck, sink);
+                    if let Some(fate) = struck.event.ends() {
                         return finish(crew, l, fate, Some(other.wall), sink);
                     }
                     if !stays {
@@ -149,22 +146,34 @@ impl<D: Domain> Walk<'_, D> {
         self.fly_on(crew, l, began);
     }
 
-    /// An impact on another wall during contact motion: whether the motion along the first one goes on, and what ends with it.
-    fn blow<const W: usize>(
+    /// An impact on another wall during contact motion: the motion before it, what it leaves, and whether the motion along the first wall
+    /// goes on.
+    fn strike<const W: usize>(
         &self,
         crew: &mut Crew<W, D::Here>,
         l: usize,
         contact: &mut Contact<'_, D>,
         hit: &Hit,
-        sink: &mut dyn Sink,
-    ) -> (bool, Option<Fate>) {
-        let m = contact.motion;
+    ) -> (Motion, After, bool) {
+        let before = contact.motion;
         crew.lanes[l].impacts += 1;
-        let after = self.outcome(crew, l, hit, m.v, m.spin);
-        let stays = contact.goes_on(Motion { v: after.velocity, spin: after.spin, ..m });
-        put(crew, l, m.x, after.velocity, after.spin);
-        sink.impact(&record(&crew.lanes[l], crew.time[l], hit, m.v, m.spin, &after));
-        (stays, after.event.ends())
+        let after = self.outcome(crew, l, hit, before.v, before.spin);
+        let stays = contact.goes_on(Motion { v: after.velocity, spin: after.spin, ..before });
+        (before, after, stays)
+    }
+
+    /// Gives a lane what such an impact left, and the impact its row.
+    fn struck<const W: usize>(
+        &self,
+        crew: &mut Crew<W, D::Here>,
+        l: usize,
+        hit: &Hit,
+        before: &Motion,
+        after: &After,
+        sink: &mut dyn Sink,
+    ) {
+        put(crew, l, before.x, after.velocity, after.spin);
+        sink.impact(&record(&crew.lanes[l], crew.time[l], hit, before.v, before.spin, after));
     }
 
     /// Brings a lane up to its contact motion.

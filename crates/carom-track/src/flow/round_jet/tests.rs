@@ -1,4 +1,5 @@
 use super::*;
+use crate::testing::runge_kutta;
 
 const D: f64 = 1e-3;
 const U: f64 = 10.0;
@@ -97,12 +98,7 @@ fn lands(stokes: f64, start: f64) -> bool {
     let h = 0.005;
     let mut s = [start, 1.0, 0.0, -1.0];
     for _ in 0..8000 {
-        let step = |s: [f64; 4], k: [f64; 4], h: f64| std::array::from_fn(|i| s[i] + h * k[i]);
-        let k1 = rate(s);
-        let k2 = rate(step(s, k1, 0.5 * h));
-        let k3 = rate(step(s, k2, 0.5 * h));
-        let k4 = rate(step(s, k3, h));
-        s = std::array::from_fn(|i| s[i] + h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]));
+        s = runge_kutta(s, h, rate);
         if s[1] <= 1e-3 {
             return true;
         }

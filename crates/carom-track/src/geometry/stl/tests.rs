@@ -1,4 +1,5 @@
 use super::*;
+use crate::testing::Chance;
 
 const FACET: &str =
     " facet normal 0 1 0\n  outer loop\n   vertex -1 0 -1\n   vertex -1 0 1\n   vertex 1 0 1\n  endloop\n endfacet\n";
@@ -101,13 +102,8 @@ fn the_digits_tell_the_precision() {
 /// Files changed by chance are read whole or refused; the seed is printed.
 #[test]
 fn bytes_by_chance_never_panic() {
-    let seed = std::env::var("CAROM_SEED").ok().and_then(|s| s.parse().ok()).unwrap_or(1u64);
-    println!("seed {seed} (CAROM_SEED)");
-    let mut state = seed;
-    let mut next = move |below: usize| {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 33) as usize % below
-    };
+    let mut chance = Chance::seeded();
+    let mut next = |below: usize| chance.below(below);
     let good = [text("a", 2).into_bytes(), bytes(b"solid", 2, 2, 1.0)];
     for n in 0..4_000 {
         let mut file = good[n % 2].clone();

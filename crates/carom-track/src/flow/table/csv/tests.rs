@@ -1,4 +1,5 @@
 use super::*;
+use crate::testing::Chance;
 
 fn of(text: &str) -> Result<Table, TableError> {
     Table::from_csv(text.as_bytes())
@@ -131,13 +132,8 @@ fn errors_name_the_place() {
 /// Tables changed by chance are read or refused; the seed is printed.
 #[test]
 fn bytes_by_chance_never_panic() {
-    let seed = std::env::var("CAROM_SEED").ok().and_then(|s| s.parse().ok()).unwrap_or(1u64);
-    println!("seed {seed} (CAROM_SEED)");
-    let mut state = seed;
-    let mut next = move |below: usize| {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 33) as usize % below
-    };
+    let mut chance = Chance::seeded();
+    let mut next = |below: usize| chance.below(below);
     let good = "[Name]\nA\n\n[Data]\nX [ mm ], Y [ m ], Velocity u [ m s^-1 ], vtkValidPointMask, k, omega\n0,0,1,1,1,2\n1,0,1,0,1,2\n0,1,2,1,1,2\n1,1,2,1,1,2\n";
     let parts = [",", ";", "\n", "\"", "#N/A", "nan", "1e308", "-", "[", "u", "x", "\u{0}", "1e-320", "%"];
     for _ in 0..2_000 {
