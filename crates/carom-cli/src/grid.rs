@@ -103,7 +103,7 @@ impl GridArgs {
 
     /// The files, checked.
     pub fn files(&self) -> Result<Files<'_>, Failure> {
-        Files::check(self.out.as_ref(), self.plot.as_ref())
+        Files::check(self.out.as_ref(), self.plot.as_ref())?.beside(self.json)
     }
 
     /// Lays the grid out.
@@ -340,9 +340,6 @@ impl Grid<'_> {
         short: impl FnOnce() -> Result<Table, Failure>,
         draw: impl FnOnce(&Path) -> Result<(), ReportError>,
     ) -> Result<(), Failure> {
-        if self.args.json && files.to_stdout() {
-            return Err(Failure::input("--json and --out - both go to standard output; keep one"));
-        }
         // JSON is in SI units, whatever was given
         files.write_drawn(|| if files.is_json() { whole() } else { self.in_units(whole()?) }, draw)?;
         if self.args.json {

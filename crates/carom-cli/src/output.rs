@@ -56,6 +56,14 @@ impl<'a> Files<'a> {
         self.table.is_some_and(is_stdout)
     }
 
+    /// These files beside an answer that is JSON or not: two do not go to standard output.
+    pub fn beside(self, json: bool) -> Result<Self, Failure> {
+        if json && self.to_stdout() {
+            return Err(Failure::input("--json and --out - both go to standard output; keep one"));
+        }
+        Ok(self)
+    }
+
     /// Is the table's file JSON?
     pub fn is_json(&self) -> bool {
         self.table.is_some_and(|path| Format::from_path(path).is_ok_and(|format| format == Format::Json))

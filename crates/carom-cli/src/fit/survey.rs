@@ -12,7 +12,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     if args.law.is_given() {
         return Err(Failure::input("--survey takes its laws from its files; leave out the flags of a law"));
     }
-    let files = Files::check(args.out.as_ref(), args.plot.as_ref())?;
+    let files = Files::check(args.out.as_ref(), args.plot.as_ref())?.beside(args.json)?;
     let (free, library) = (args.free(&FREE)?, args.law.materials.library()?);
     let mut subjects = Vec::new();
     for path in &args.survey {
@@ -33,9 +33,6 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         crate::validate::tell_left_out(&subject.data.name, &subject.data.left_out);
     }
     let found = survey(&subjects, &free, &library, &args.options(0))?;
-    if args.json && files.to_stdout() {
-        return Err(Failure::input("--json and --out - both go to standard output; keep one"));
-    }
     files.write(|| Ok(table(&found)?), || plot(&found))?;
     if files.to_stdout() {
         return Ok(());

@@ -33,7 +33,8 @@ pub fn read(path: &Path, args: &Args, grid: &Grid) -> Result<Vec<Series>, Failur
         }
     };
     let usual = args.case.motion.diameter.as_ref().and_then(Given::one);
-    let data = Data::from_csv(&path.display().to_string(), &output::read(path)?, usual)?;
+    let data = Data::from_csv(&path.display().to_string(), &output::read_points(path)?, usual)?;
+    crate::validate::tell_left_out(&data.name, &data.left_out);
     let groups = if grid.quantity() == Swept::Diameter { vec![f64::NAN] } else { data.diameters() };
     let several = groups.len() > 1;
     let series: Vec<Series> = groups
