@@ -12,6 +12,8 @@
 //! With p the force per mass that presses, v_s the slip of the contact point and f the friction coefficient: sliding, v' = a − f p v̂_s
 //! and ω' = (5/2)(f p/R)(n × v̂_s); rolling, the friction −(2/7) v_s' that keeps the slip zero, as long as f p is enough for it.
 
+mod friction;
+mod stop;
 mod surface;
 
 use super::Walk;
@@ -20,9 +22,11 @@ use super::walk::least_step;
 use crate::domain::{Domain, Hit, Next};
 use crate::dynamics::Bodies;
 use crate::geometry::{Path, Shape, evaluate};
-use crate::integrate::{Control, Derivative, Lanes, Motion as Motions, Rates, Step, growth, step};
+use crate::integrate::{Control, Derivative, Motion as Motions, Rates, Step, growth, step};
 use crate::record::Event;
-use crate::vector::{Vec3, add, dot, norm, scale, sub, unit};
+use crate::vector::{Vec3, add, dot, norm, scale, sub};
+use friction::{Kind, OnSurface};
+use stop::Stop;
 use surface::{Held, Rub, Surface};
 
 /// Position, velocity and spin of a sphere.
@@ -48,8 +52,6 @@ pub(super) enum Ending {
     Stalls,
 }
 
-/// Slip over the speeds it is made of that counts as none.
-const NO_SLIP: f64 = 1e-9;
 /// Force along the surface over the one across it that counts as none.
 const LEVEL: f64 = 1e-9;
 /// Share of the radius by which a path is lifted off its own wall before others are looked for.
@@ -88,30 +90,6 @@ pub(super) struct Contact<'a, D: Domain> {
     until: f64,
     /// Whether chance presses it too, for that long.
     chance_presses: bool,
-}
-
-/// How friction acts during a step.
-#[derive(Clone, Copy, Debug)]
-enum Kind {
-    Free,
-    /// Against a slip that is within a right angle of this direction; beyond zero slip it goes on smoothly.
-    Slides(Vec3),
-    Rolls,
-}
-
-/// Where a step must end.
-#[derive(Clone, Copy, Debug)]
-enum Stop<H> {
-    /// At its end.
-    Whole,
-    Edge(H),
-    Wall(Hit),
-    /// The slip is gone, or friction does not keep it zero.
-    Grip,
-    /// Nothing presses any more.
-    Press,
-    /// The wall is not under it any more.
-    Support,
 }
 
 impl<'a, D: Domain> Contact<'a, D> {
@@ -273,48 +251,6 @@ impl<'a, D: Domain> Contact<'a, D> {
         swing < self.height * pressed.total && ends(axial(v), axial(driven), axial(slowed))
     }
 
-    fn kind(&self, surface: &Surface) -> Kind {
-        let m = &self.motion;
-        let (a, turn) = self.steady(self.time, m);
-        let pressed = surface.press(m, a);
-        if pressed.friction <= 0.0 {
-            return Kind::Free;
-        }
-        let slip = surface.slip(m, self.radius());
-        let speeds = norm(sub(m.v, surface.wall_velocity())) + self.radius() * norm(m.spin);
-        if !self.rolls && norm(slip) > NO_SLIP * speeds {
-            return unit(slip).map_or(Kind::Free, Kind::Slides);
-        }
-        let grip = self.grip(surface, m, pressed.acceleration, turn);
-        if norm(grip) <= pressed.friction {
-            Kind::Rolls
-        } else {
-            unit(grip).map_or(Kind::Rolls, |g| Kind::Slides(scale(g, -1.0)))
-        }
-    }
-
-    /// The friction per mass that keeps the slip as it is, m/s².
-    fn grip(&self, surface: &Surface, m: &Motion, a: Vec3, turn: Vec3) -> Vec3 {
-        let change = Motion { v: add(surface.wall_velocity(), a), spin: turn, ..*m };
-        let lever = surface.lever();
-        scale(surface.slip(&change, self.radius()), -1.0 / (1.0 + 2.5 * lever * lever))
-    }
-
-    /// Acceleration and angular acceleration on a surface, where the forces alone would give `a` and `turn`.
-    fn accelerations(&self, surface: &Surface, kind: Kind, m: &Motion, a: Vec3, turn: Vec3) -> (Vec3, Vec3) {
-        let pressed = surface.press(m, a);
-        let friction = match kind {
-            Kind::Free => return (pressed.acceleration, turn),
-            Kind::Rolls => self.grip(surface, m, pressed.acceleration, turn),
-            Kind::Slides(ahead) => {
-                let direction = unit(surface.slip(m, self.radius())).unwrap_or(ahead);
-                let direction = if dot(direction, ahead) < 0.0 { scale(direction, -1.0) } else { direction };
-                scale(direction, -pressed.friction)
-            }
-        };
-        (add(pressed.acceleration, friction), add(turn, surface.turn(friction, self.radius())))
-    }
-
     /// Follows the motion until it comes to something.
     pub fn run(&mut self, mut trace: impl FnMut(f64, &Motion)) -> Ending {
         loop {
@@ -407,86 +343,6 @@ impl<'a, D: Domain> Contact<'a, D> {
         }
     }
 
-    /// What a step comes to first, and where.
-    fn first_stop(&self, surface: &Surface, kind: Kind, trial: &Step<1>, path: &Path, h: f64) -> (f64, Stop<D::Here>) {
-        let mut first = (1.0, Stop::Whole);
-        if let Next::Edge { theta, into } = self.walk.domain.edge(self.here, path) {
-            first = (theta, Stop::Edge(into));
-        }
-        if let Some(hit) = self.other_wall(surface, path).filter(|hit| hit.meeting.theta < first.0) {
-            first = (hit.meeting.theta, Stop::Wall(hit));
-        }
-        let mut before = 0.0;
-        for quarter in [0.25, 0.5, 0.75, 1.0] {
-            if before >= first.0 {
-                break;
-            }
-            let fails = |theta: f64| self.fails(surface, kind, &self.at(trial, h, theta), self.time + theta * h);
-            if let Some(why) = fails(quarter) {
-                let (mut low, mut high, mut why) = (before, quarter, why);
-                for _ in 0..50 {
-                    let middle = 0.5 * (low + high);
-                    match fails(middle) {
-                        Some(w) => (high, why) = (middle, w),
-                        None => low = middle,
-                    }
-                }
-                if high < first.0 {
-                    first = (high, why);
-                }
-                break;
-            }
-            before = quarter;
-        }
-        first
-    }
-
-    /// Why a step may not go on to a motion.
-    fn fails(&self, surface: &Surface, kind: Kind, m: &Motion, time: f64) -> Option<Stop<D::Here>> {
-        let here = surface.at(m.x);
-        let (a, turn) = self.steady(time, m);
-        let pressed = here.press(m, a);
-        if !pressed.holds {
-            return Some(Stop::Press);
-        }
-        match kind {
-            Kind::Free => {}
-            Kind::Slides(ahead) if dot(here.slip(m, self.radius()), ahead) <= 0.0 => return Some(Stop::Grip),
-            Kind::Slides(_) => {}
-            Kind::Rolls if norm(self.grip(&here, m, pressed.acceleration, turn)) > pressed.friction => {
-                return Some(Stop::Grip);
-            }
-            Kind::Rolls => {}
-        }
-        let under = |c: &Held| {
-            let Shape::Mesh(_) = c.wall.shape else { return true };
-            let supports = self.walk.domain.walls().support(m.x, self.radius(), self.height);
-            supports.iter().any(|s| s.wall == c.index && dot(s.normal, c.normal) > 0.99)
-        };
-        (!here.list().iter().all(under)).then_some(Stop::Support)
-    }
-
-    /// The first other wall, or other part of its wall, that the sphere meets.
-    fn other_wall(&self, surface: &Surface, path: &Path) -> Option<Hit> {
-        let walls = self.walk.domain.walls();
-        let lifted = Path { start: add(path.start, self.lift), ..*path };
-        let mut first: Option<Hit> = None;
-        for (index, wall) in walls.list().iter().enumerate() {
-            let own = surface.list().iter().any(|c| c.index == index);
-            if own && matches!(wall.shape, Shape::Cylinder(_) | Shape::Plane(_)) {
-                continue;
-            }
-            let met = wall.shape.meet(&lifted, wall.clearance(self.radius()), 0.1 * norm(self.lift));
-            let Some((meeting, face)) = met else { continue };
-            let is_own = |c: &Held| c.index == index && dot(c.normal, meeting.normal) > 1.0 - 1e-6;
-            if surface.list().iter().any(is_own) || first.is_some_and(|f| f.meeting.theta <= meeting.theta) {
-                continue;
-            }
-            first = Some(Hit { wall: index, face, meeting, wall_velocity: wall.velocity });
-        }
-        first
-    }
-
     /// Puts the sphere exactly in contact with a wall it meets.
     fn touch(&mut self, mut hit: Hit) -> Hit {
         if let Some(wall) = self.walk.domain.walls().list().get(hit.wall) {
@@ -495,23 +351,6 @@ impl<'a, D: Domain> Contact<'a, D> {
         }
         hit.meeting.position = self.motion.x;
         hit
-    }
-
-    /// Energy per mass that friction takes up to θ of a step: Boole's rule over the power f p |v_s|.
-    fn work(&self, surface: &Surface, kind: Kind, trial: &Step<1>, h: f64, theta: f64) -> f64 {
-        if !matches!(kind, Kind::Slides(_)) {
-            return 0.0;
-        }
-        const WEIGHTS: [f64; 5] = [7.0, 32.0, 12.0, 32.0, 7.0];
-        let power = |i: usize| {
-            let t = theta * 0.25 * i as f64;
-            let m = self.at(trial, h, t);
-            let here = surface.at(m.x);
-            let (a, _) = self.steady(self.time + t * h, &m);
-            here.press(&m, a).friction * norm(here.slip(&m, self.radius()))
-        };
-        let sum: f64 = WEIGHTS.iter().enumerate().map(|(i, w)| w * power(i)).sum();
-        sum * theta * h / 90.0
     }
 
     /// Takes a step up to θ.
@@ -541,22 +380,5 @@ impl<'a, D: Domain> Contact<'a, D> {
         self.motion = motion;
         self.rolls = false;
         stays
-    }
-}
-
-/// The forces on a sphere on a surface.
-struct OnSurface<'b, 'a, D: Domain> {
-    contact: &'b Contact<'a, D>,
-    surface: &'b Surface<'a>,
-    kind: Kind,
-}
-
-impl<D: Domain> Derivative<1> for OnSurface<'_, '_, D> {
-    fn rates(&self, time: &Lanes<1>, motion: &Motions<1>, out: &mut Rates<1>) {
-        let column = |v: &[[f64; 1]; 3]| [v[0][0], v[1][0], v[2][0]];
-        let m = Motion { x: column(&motion.x), v: column(&motion.v), spin: column(&motion.spin) };
-        let (a, turn) = self.contact.steady(time[0], &m);
-        let (a, turn) = self.contact.accelerations(&self.surface.at(m.x), self.kind, &m, a, turn);
-        (out.a, out.alpha) = (a.map(|c| [c]), turn.map(|c| [c]));
     }
 }
