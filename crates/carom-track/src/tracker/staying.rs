@@ -61,12 +61,12 @@ impl<D: Domain> Walk<'_, D> {
                 Ending::Leaves(event) => break (Some(event), None),
                 Ending::Meets(hit) => {
                     blows += 1;
+                    let off = contact.left_by();
                     let (before, after, stays) = self.strike(crew, l, &mut contact, &hit);
                     let ends = after.event.ends();
                     let wedged = blows > WEDGED;
                     if ends.is_some() || !(stays || wedged) {
-                        let off = contact.left_by();
-                        self.end_row(crew, l, &contact, began, off, sink);
+                        self.end_row(crew, l, &contact, (began.1, before), off, sink);
                     }
                     self.struck(crew, l, &hit, &before, &after, sink);
                     match ends {
@@ -84,7 +84,7 @@ impl<D: Domain> Walk<'_, D> {
             put(crew, l, contact.place(), velocity, [0.0; 3]);
         }
         if let Some(event) = event {
-            self.end_row(crew, l, &contact, began, event, sink);
+            self.end_row(crew, l, &contact, (began.1, contact.motion), event, sink);
         }
         match fate {
             Some(fate) => finish(crew, l, fate, Some(wall), sink),
@@ -200,13 +200,13 @@ impl<D: Domain> Walk<'_, D> {
         crew: &Crew<W, D::Here>,
         l: usize,
         contact: &Contact<'_, D>,
-        (_, began): (f64, Motion),
+        (began, ended): (Motion, Motion),
         event: Event,
         sink: &mut dyn Sink,
     ) {
         let lane: &Lane = &crew.lanes[l];
         let wall_velocity = self.domain.walls().list().get(contact.wall).map_or([0.0; 3], |w| w.velocity);
-        let m = contact.motion;
+        let m = ended;
         let (velocity, spin) = if event == Event::Settle { (wall_velocity, [0.0; 3]) } else { (m.v, m.spin) };
         let radius = crew.bodies.radius[l];
         let left = 0.5 * square(sub(m.v, wall_velocity)) + 0.2 * radius * radius * square(m.spin);

@@ -89,6 +89,23 @@ fn friction_ends_sliding_in_rolling_with_five_sevenths_of_the_speed() {
 }
 
 #[test]
+fn a_rolling_sphere_knocked_off_by_another_wall_rolled_till_then() {
+    // its spin drags it up the wall ahead, off the floor
+    let walls = vec![plane("floor", [0.0; 3], [0.0, 1.0, 0.0]), plane("ahead", [0.2, 0.0, 0.0], [-1.0, 0.0, 0.0])];
+    let v = 0.5;
+    let p = small([0.0, 5e-5, 0.0], [v, 0.0, 0.0]);
+    let log = one(walls, &rough(0.5, 0.2), &weight([0.0, -G, 0.0]), 1.0, p);
+    let end = log.impacts.iter().find(|i| matches!(i.event, Event::RollOff | Event::SlideOff)).unwrap();
+    assert_eq!((end.event, end.wall), (Event::RollOff, 0), "{:?}", log.impacts);
+    let rolling = 5.0 / 7.0 * v;
+    assert!((end.tangential_speed_out / rolling - 1.0).abs() < 1e-9, "{end:?}");
+    assert!((end.spin_out * 5e-5 / rolling - 1.0).abs() < 1e-9 && end.normal_speed_out == 0.0, "{end:?}");
+    assert!((end.energy.friction - 2.0 / 7.0).abs() < 1e-6, "{:?}", end.energy);
+    let blow = log.impacts.iter().find(|i| i.wall == 1).unwrap();
+    assert!((blow.normal_speed_in / rolling - 1.0).abs() < 1e-9 && blow.time == end.time, "{blow:?}");
+}
+
+#[test]
 fn a_sphere_rolls_down_a_slope_and_slides_down_a_steep_one() {
     let run = |degrees: f64, f: f64| {
         let (s, c) = degrees.to_radians().sin_cos();
