@@ -56,6 +56,7 @@ impl Fate {
 /// They are ≥ 0 and sum to 1 (give or take rounding).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub struct Energy {
     /// Work of adhesion.
     pub adhesion: f64,
@@ -76,6 +77,20 @@ pub struct Energy {
 }
 
 impl Energy {
+    /// Of a motion whose loss along the normal has no mechanism's name: that loss, friction's share and what is kept.
+    pub const fn without_mechanism(other: f64, friction: f64, kept: f64) -> Self {
+        Self {
+            adhesion: 0.0,
+            adhesion_damping: 0.0,
+            hertz_damping: 0.0,
+            plastic: 0.0,
+            other,
+            friction,
+            captured: 0.0,
+            kept,
+        }
+    }
+
     /// Names and values, in the order of the results.
     pub fn named(&self) -> [(&'static str, f64); 8] {
         [

@@ -25,6 +25,7 @@
 mod builder;
 mod compile;
 mod curve;
+mod key;
 mod keys;
 mod normal;
 mod range;
@@ -39,7 +40,7 @@ mod write;
 mod written;
 
 pub use curve::CurveSpec;
-pub(crate) use keys::out_of_range;
+pub(crate) use key::out_of_range;
 pub use keys::{Key, KeyInfo, LawBuilder, LawSpec, Search};
 pub use normal::{NormalKind, NormalSpec};
 pub use range::Range;

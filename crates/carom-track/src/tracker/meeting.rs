@@ -185,7 +185,7 @@ impl<D: Domain> Walk<'_, D> {
                 bounces: true,
                 velocity: add(along, hit.wall_velocity),
                 spin,
-                energy: Energy { kept, ..Energy::default() },
+                energy: Energy::without_mechanism(0.0, 0.0, kept),
                 ..stay(Event::Rebound)
             };
         };
@@ -305,7 +305,7 @@ fn glance(law: &WallLaw, impact: &Impact, out: &carom::Outcome) -> Option<After>
         spin,
         restitution: 0.0,
         impulse_ratio: norm(sub(tangent, velocity)) / v_n,
-        energy: Energy { other: across, kept, friction: (1.0 - across - kept).max(0.0), ..Energy::default() },
+        energy: Energy::without_mechanism(across, (1.0 - across - kept).max(0.0), kept),
         validity: out.validity,
     })
 }

@@ -212,7 +212,7 @@ impl<D: Domain> Walk<'_, D> {
         let left = 0.5 * square(sub(m.v, wall_velocity)) + 0.2 * radius * radius * square(m.spin);
         let all = left + contact.worn;
         let share = |e: f64| if all > 0.0 { e / all } else { 0.0 };
-        let energy = Energy { friction: share(contact.worn), kept: share(left), ..Energy::default() };
+        let energy = Energy::without_mechanism(0.0, share(contact.worn), share(left));
         let meeting = Meeting { theta: 0.0, position: contact.place(), normal: contact.normal };
         let hit = Hit { wall: contact.wall, face: None, meeting, wall_velocity };
         let after = After {
