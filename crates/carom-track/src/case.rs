@@ -107,8 +107,9 @@ impl Case {
         let behaviors = read
             .wall
             .iter()
-            .map(|at| {
-                let behavior = wall::behavior(at, &laws, &injections, library)?;
+            .zip(&walls)
+            .map(|(at, wall)| {
+                let behavior = wall::behavior(at, wall, &laws, &injections, library)?;
                 removal::with_removal(behavior, &at.value, &flow, &fluid, largest)
             })
             .collect::<Result<Vec<_>, _>>()?;
@@ -122,7 +123,7 @@ impl Case {
         let output = read.output;
         let bins = bins(&output)?;
         notes.extend(read.forces.gravity.is_none().then(|| "no gravity: [forces] gives none".to_owned()));
-        notes.extend(scale::notes(&flow, &walls, &injections));
+        notes.extend(scale::notes(&flow, &walls, &behaviors, &injections));
         Ok(Self {
             title: read.title.unwrap_or_default(),
             name: name.to_owned(),

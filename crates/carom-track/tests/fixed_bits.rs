@@ -99,7 +99,7 @@ impl Sink for Told {
 }
 
 /// These change only when a formula or the walk does, and then on every machine alike.
-const FLIGHTS: [u64; 3] = [0x672b_c5a4_2df6_9cab, 0x0725_0e50_16f2_69fc, 0x8f36_94ca_bf8f_4d05];
+const FLIGHTS: [u64; 3] = [0xd22c_6554_6c6c_c329, 0x0725_0e50_16f2_69fc, 0xd303_1486_af2c_863e];
 
 #[test]
 fn flights_have_fixed_bits_on_every_instruction_set() {

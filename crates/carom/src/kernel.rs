@@ -18,6 +18,7 @@ mod judge;
 mod rough;
 mod short;
 
+use crate::curvature::Curvature;
 use crate::impact::ImpactError;
 use crate::math::Fma;
 use crate::normal::empirical::Piece;
@@ -35,8 +36,7 @@ pub struct Kernel {
     pub(crate) tangential: Tangential,
     /// Density of the law's own sphere, kg/m³; a law that needs none and was given none holds 1000.
     pub(crate) density: f64,
-    /// 1/r_s, 1/m.
-    pub(crate) surface_curvature: f64,
+    pub(crate) curvature: Curvature,
     pub(crate) limits: Limits,
     /// Warnings of every impact.
     pub(crate) validity: Validity,
@@ -86,8 +86,8 @@ impl Kernel {
                 return Err(ImpactError::Density);
             }
         }
-        if self.surface_curvature != 0.0 {
-            size.kappa = 1.0 / f.fma(self.surface_curvature, radius, 1.0);
+        if !self.curvature.is_flat() {
+            size.kappa = self.curvature.kappa(f, radius);
             if !(size.kappa > 1e-3 && size.kappa < 1e3) {
                 return Err(ImpactError::Curvature);
             }

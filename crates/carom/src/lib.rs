@@ -20,7 +20,7 @@
 //!
 //! Where to look: one file per mechanism in [`normal`] and [`tangential`]; the equation of motion in [`resolved`]; materials and their
 //! sources in [`material`]; rough walls that scatter in
-//! [`scatter`]; what removes a captured sphere in [`removal`]; what a result's doubts mean in [`validity`]. SI units throughout; angles from the surface.
+//! [`scatter`]; curved ones in [`curvature`]; what removes a captured sphere in [`removal`]; what a result's doubts mean in [`validity`]. SI units throughout; angles from the surface.
 //!
 //! # How do I ...
 //!
@@ -59,6 +59,7 @@
 extern crate alloc;
 
 pub mod batch;
+pub mod curvature;
 pub mod error;
 pub mod impact;
 pub mod instructions;

@@ -1,5 +1,6 @@
 //! A wall law: materials and text above, a kernel of plain numbers below. An impact in, an outcome out.
 
+use crate::curvature::Curvature;
 use crate::impact::{Impact, ImpactError, Outcome};
 use crate::kernel::{Judged, Kernel, Limits, Tables};
 use crate::math::{BEST, Fma};
@@ -46,8 +47,7 @@ pub(crate) struct About {
 pub(crate) struct Parts {
     pub normal: Normal,
     pub tangential: Along,
-    /// 1/r_s, 1/m.
-    pub surface_curvature: f64,
+    pub curvature: Curvature,
     pub scatter: Option<Scatter>,
     /// Warnings of every impact.
     pub validity: Validity,
@@ -95,13 +95,31 @@ impl WallLaw {
         let density = pair.and_then(|p| p.density().ok()).unwrap_or(1000.0);
         let roughness_factor = parts.about.roughness_factor;
         let limits = Limits::new(&Judged { normal: &normal, pair, roughness_factor, density });
-        let (surface_curvature, validity) = (parts.surface_curvature, parts.validity);
+        let (curvature, validity) = (parts.curvature, parts.validity);
         Self {
-            kernel: Kernel { normal, tangential, density, surface_curvature, limits, validity, scatter: parts.scatter },
+            kernel: Kernel { normal, tangential, density, curvature, limits, validity, scatter: parts.scatter },
             pieces: pieces.into(),
             shape,
             about: parts.about,
         }
+    }
+
+    /// The same law on a surface of another curvature, in place of the law's own `surface_curvature`.
+    ///
+    /// ```
+    /// use carom::{Impact, curvature::Curvature, material::Library, spec::parse_law};
+    /// let law = parse_law("sphere = \"copper\"\nsurface = \"glass\"\nnormal = \"ea\"\n")?.compile(Library::builtin())?;
+    /// let head_on = Impact::new(100e-6, [0.0, -0.3, 0.0], [0.0, 1.0, 0.0]);
+    /// let e = |curvature| law.clone().curved(curvature).impact(&head_on).expect("it fits").restitution;
+    /// assert!((e(Curvature::FLAT) - 0.7410).abs() < 1e-4);
+    /// assert!((e(Curvature::cylinder(-0.2e-3)) - 0.7164).abs() < 1e-4); // in a bore of 0.4 mm
+    /// assert!((e(Curvature::sphere(-0.2e-3)) - 0.6887).abs() < 1e-4);
+    /// # Ok::<(), carom::LawError>(())
+    /// ```
+    #[must_use]
+    pub fn curved(mut self, curvature: Curvature) -> Self {
+        self.kernel.curvature = curvature;
+        self
     }
 
     /// The law as plain numbers, for callers that run the arithmetic themselves.

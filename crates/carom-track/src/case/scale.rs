@@ -1,9 +1,10 @@
 //! Scales that cannot be meant: told, not refused.
 
 use super::injection::{Injected, hull};
-use crate::domain::Wall;
+use crate::domain::{ContactAt, Wall};
 use crate::flow::Flow;
 use crate::geometry::Shape;
+use crate::tracker::Behavior;
 
 /// A wall as far as this from everything injected is worth a word, m: no stage, duct or chamber is as large.
 const FAR: f64 = 3.0;
@@ -11,12 +12,13 @@ const FAR: f64 = 3.0;
 const LONG: f64 = 1e3;
 
 /// What to say of a case's lengths.
-pub(super) fn notes(flow: &Flow, walls: &[Wall], injections: &[Injected]) -> Vec<String> {
+pub(super) fn notes(flow: &Flow, walls: &[Wall], behaviors: &[Behavior], injections: &[Injected]) -> Vec<String> {
     let mut notes = far_walls(walls, injections);
     if walls.is_empty() {
         notes.push("the case has no [[wall]]: nothing is met, and the end of the run alone ends a flight".to_owned());
     }
     notes.extend(small_walls(walls, injections));
+    notes.extend(narrow_bores(walls, behaviors, injections));
     if let Flow::Table(table) = flow {
         let ([nx, ny, nz], [low, high]) = (table.size(), table.bounds());
         let [x, y, z] = [0, 1, 2].map(|c| super::stl::length(high[c] - low[c]));
@@ -59,6 +61,22 @@ fn small_walls(walls: &[Wall], injections: &[Injected]) -> Vec<String> {
             format!("wall '{name}' is {size:.3e} m large, less than a sphere of {largest:.3e} m: is the unit of its file right?")
         })
         .collect()
+}
+
+/// Bores in which the contact is a longer ellipse than its formula is good for ([`carom::curvature`]).
+fn narrow_bores(walls: &[Wall], behaviors: &[Behavior], injections: &[Injected]) -> Vec<String> {
+    let largest = injections.iter().map(|i| i.largest).fold(0.0, f64::max);
+    let narrow = |w: &Wall| {
+        w.contact_at == ContactAt::Surface && matches!(&w.shape, Shape::Cylinder(c) if c.inside && largest > c.radius)
+    };
+    let laws = walls.iter().zip(behaviors).filter(|(wall, b)| b.laws().is_some() && narrow(wall));
+    laws.map(|(wall, _)| {
+        format!(
+            "wall '{}' is less than twice as wide as a sphere of {largest:.3e} m: the true contact is more than 2 % stiffer than the formula",
+            wall.name
+        )
+    })
+    .collect()
 }
 
 /// An injection further outside a table than the table is large.

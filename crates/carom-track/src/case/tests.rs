@@ -1,5 +1,6 @@
 use super::*;
 
+mod curvature;
 mod stl;
 
 const GOOD: &str = r#"

@@ -9,6 +9,7 @@ use crate::geometry::{Cylinder, Mesh, Plane, Room, Shape};
 use crate::tracker::Behavior;
 use crate::vector::{dot, norm, scale, sub, unit};
 use carom::LawError;
+use carom::curvature::Curvature;
 use carom::material::{Library, MaterialRef};
 use carom::spec::{At, LawSpec, NormalKind, NormalSpec, TangentialKind};
 use std::collections::BTreeMap;
@@ -110,6 +111,7 @@ fn velocity(text: &WallText, shape: &Shape) -> Result<[f64; 3], LawError> {
 /// What happens at a wall.
 pub(super) fn behavior(
     at: &At<WallText>,
+    wall: &Wall,
     laws: &Laws,
     injections: &[Injected],
     library: &Library,
@@ -123,7 +125,9 @@ pub(super) fn behavior(
             .help("only law = \"reflect\" takes its coefficients here"));
     }
     if let Some(law) = laws.get(name) {
-        return compile(text, name, law, injections, library).map(Behavior::Law);
+        let curvature = curvature(wall, &law.value);
+        let laws = compile(text, name, law, injections, library)?.into_iter();
+        return Ok(Behavior::Law(laws.map(|law| if let Some(c) = curvature { law.curved(c) } else { law }).collect()));
     }
     match name {
         "trap" => Ok(Behavior::Trap),
@@ -132,6 +136,12 @@ pub(super) fn behavior(
         "reflect" => reflect(at, library),
         _ => Err(no_such_law(&text.law, laws.keys())),
     }
+}
+
+/// The wall's own curvature, where the law does not give one and contact is the surface's: of what meets a wall with its centre, the
+/// size is nothing to the wall.
+fn curvature(wall: &Wall, law: &LawSpec) -> Option<Curvature> {
+    (law.surface_curvature.is_none() && wall.contact_at == ContactAt::Surface).then(|| wall.shape.curvature())
 }
 
 /// Fluent's and OpenFOAM's reflection: restitution of the centre, normal and tangential, spin untouched.
@@ -200,6 +210,9 @@ fn compile(
         .collect()
 }
 
+/// A bore that a sphere fills up to this has no contact to speak of.
+const NEARLY_FILLED: f64 = 1.0 - 1e-5;
+
 /// Walls that leave no room for a sphere between them.
 pub(super) fn contradictions(texts: &[At<WallText>], walls: &[Wall], largest: f64) -> Result<(), LawError> {
     let planes = |w: &Wall| match &w.shape {
@@ -230,7 +243,7 @@ pub(super) fn contradictions(texts: &[At<WallText>], walls: &[Wall], largest: f6
         }
         if let Shape::Cylinder(c) = &a.shape
             && c.inside
-            && c.radius <= a.clearance(0.5 * largest)
+            && c.radius * NEARLY_FILLED <= a.clearance(0.5 * largest)
         {
             return Err(wrong(at, format!("wall '{}' is too narrow for a sphere of {largest} m", a.name)));
         }

@@ -29,6 +29,7 @@ pub use room::Room;
 pub use walls::{ContactAt, Hit, Overlap, Support, Supports, Wall, Walls};
 
 use crate::vector::Vec3;
+use carom::curvature::Curvature;
 
 /// The first meeting of a path with a shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,6 +63,14 @@ impl Shape {
             Self::Cylinder(c) => c.distance(x),
             Self::Room(r) => r.distance(x),
             Self::Mesh(m) => m.distance(x),
+        }
+    }
+
+    /// Its curvature at every contact: that of a cylinder's wall. Triangles are flat.
+    pub fn curvature(&self) -> Curvature {
+        match self {
+            Self::Cylinder(c) => Curvature::cylinder(if c.inside { -c.radius } else { c.radius }),
+            Self::Plane(_) | Self::Room(_) | Self::Mesh(_) => Curvature::FLAT,
         }
     }
 

@@ -9,6 +9,7 @@ use super::impact::NO_SLIP;
 use super::short::{Short, ShortLaw};
 use super::{Kernel, Tables};
 use crate::batch::{Incidence, Rebound};
+use crate::curvature::Curvature;
 use crate::instructions::{InstructionSet, Work};
 use crate::math::{Fma, Plain, sqrt, watched};
 use crate::normal::{Account, Ledger, Loops, Losses, Mechanism, NormalLaw, Size};
@@ -58,12 +59,12 @@ impl Sizing for Flat {
     }
 }
 #[derive(Clone, Copy)]
-struct Curved(f64);
+struct Curved(Curvature);
 impl Sizing for Curved {
     #[inline(always)]
     fn size<F: Fma>(&self, f: F, diameter: f64) -> Size {
         let radius = 0.5 * diameter;
-        Size { kappa: 1.0 / f.fma(self.0, radius, 1.0), ..Size::flat(radius) }
+        Size { kappa: self.0.kappa(f, radius), ..Size::flat(radius) }
     }
 }
 
@@ -112,7 +113,7 @@ const MANY_REGISTERS: usize = 16;
 impl<F: Fma> Chunks for With<F> {
     #[inline(always)]
     fn one(self, kernel: &Kernel, tables: &Tables, rows: &Rows, out: &mut Out, between: &mut Between) -> bool {
-        if self.one_loop && kernel.surface_curvature == 0.0 && out.more.is_none() {
+        if self.one_loop && kernel.curvature.is_flat() && out.more.is_none() {
             match kernel.short() {
                 Some(ShortLaw::Elastic(law)) => return one_loop(self.f, &law, rows, out),
                 Some(ShortLaw::ElasticPlastic(law)) => return one_loop(self.f, &law, rows, out),
@@ -237,10 +238,10 @@ fn write_more(out: &mut Rebound, range: core::ops::Range<usize>, e: &Column, rat
 
 #[inline(always)]
 fn chunk<F: Fma>(f: F, kernel: &Kernel, tables: &Tables, rows: &Rows, out: &mut Out, between: &mut Between) -> bool {
-    if kernel.surface_curvature == 0.0 {
+    if kernel.curvature.is_flat() {
         restitutions(f, kernel, tables, rows, Flat, between);
     } else {
-        restitutions(f, kernel, tables, rows, Curved(kernel.surface_curvature), between);
+        restitutions(f, kernel, tables, rows, Curved(kernel.curvature), between);
     }
     match out.more {
         None => along_the_wall::<_, false>(f, kernel, tables, rows, out, between),

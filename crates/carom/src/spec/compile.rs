@@ -3,6 +3,7 @@
 use super::keys::LawBuilder;
 use super::uses::Choice;
 use super::{Key, NormalKind, NormalSpec, TangentialKind};
+use crate::curvature::Curvature;
 use crate::error::{LawError, Problem};
 use crate::normal::adhesion::Work;
 use crate::normal::empirical::Curve;
@@ -26,7 +27,7 @@ pub(super) fn law(b: &LawBuilder, spec: &NormalSpec, pair: Option<Pair>) -> Resu
     Ok(WallLaw::new(Parts {
         normal,
         tangential,
-        surface_curvature: b.surface_curvature.map_or(0.0, |r| 1.0 / r),
+        curvature: b.surface_curvature.map_or(Curvature::FLAT, Curvature::sphere),
         scatter: b.roughness_angle.filter(|a| *a > 0.0).map(Scatter::new),
         validity: Validity::ROUGHNESS_EXTRAPOLATED.when(extrapolated && uses_roughness),
         about: About {
