@@ -22,7 +22,7 @@ use crate::record::Sink;
 use crate::vector::Vec3;
 use carom::instructions::{InstructionSet, Work};
 use carom::math::Fma;
-pub use removal::Removal;
+pub use removal::Reentrainment;
 pub use settings::{Settings, SettleHeight};
 use walk::Walk;
 
@@ -58,7 +58,7 @@ impl Particle {
     }
 
     /// A particle of a run from its injection's.
-    pub fn new(number: u64, injection: usize, start: &crate::injection::Particle) -> Self {
+    pub fn new(number: u64, injection: usize, start: &crate::injection::Injected) -> Self {
         Self {
             number,
             injection,
@@ -85,7 +85,7 @@ pub enum Behavior {
     /// A wall law decides: one for each injection's material, or one for all.
     Law(Vec<carom::WallLaw>),
     /// Likewise, and the flow takes spheres that would stay off again where it is strong enough.
-    Removal(Vec<carom::WallLaw>, Removal),
+    Removal(Vec<carom::WallLaw>, Reentrainment),
     /// It stays, whatever its speed.
     Trap,
     /// It leaves the domain.

@@ -46,7 +46,7 @@ use crate::normal::adhesion::{AdhesionDamping, Work};
 use crate::normal::damping::HertzDamping;
 use crate::normal::{Losses, NormalResponse, Size, Term, Window};
 use crate::validity::Validity;
-use motion::{Contact, Motion};
+use motion::{Equation, Motion};
 
 /// When adhesion acts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -106,8 +106,8 @@ impl Resolved {
     }
 
     #[inline(always)]
-    fn contact<F: Fma>(&self, f: F, v: f64, size: &Size) -> Contact {
-        Contact {
+    fn contact<F: Fma>(&self, f: F, v: f64, size: &Size) -> Equation {
+        Equation {
             adhesion: self.work.fraction_on(f, v, size) / PSI_OVER_A,
             adhesion_damping: self.damping.adhesion * v,
             hertz_damping: self.damping.hertz * v,
@@ -188,7 +188,7 @@ impl instructions::Work for Respond<'_> {
 
 /// Energy fractions from the work done along the way; e from what they leave.
 #[inline(always)]
-fn response(contact: &Contact, motion: &Motion) -> NormalResponse {
+fn response(contact: &Equation, motion: &Motion) -> NormalResponse {
     let adhesion = if contact.reversible {
         0.0
     } else {

@@ -3,7 +3,7 @@
 use super::check::{positive, word, wrong};
 use super::text::WallText;
 use crate::flow::{Flow, Fluid};
-use crate::tracker::{Behavior, Removal};
+use crate::tracker::{Behavior, Reentrainment};
 use carom::LawError;
 use carom::removal::{self, Mode};
 use carom::spec::At;
@@ -87,5 +87,5 @@ pub(super) fn with_removal(
                 .help("use a tangential law with friction, or removal = \"rolling\""));
         }
     }
-    Ok(Behavior::Removal(laws, Removal { mode, friction_velocity }))
+    Ok(Behavior::Removal(laws, Reentrainment { mode, friction_velocity }))
 }

@@ -191,7 +191,7 @@ fn removal_is_a_wall_option() {
         _ => None,
     };
     use carom::removal::Mode;
-    let removal = |mode, friction_velocity| Some(crate::tracker::Removal { mode, friction_velocity });
+    let removal = |mode, friction_velocity| Some(crate::tracker::Reentrainment { mode, friction_velocity });
     assert_eq!(of("false"), None);
     assert_eq!(of("true"), removal(None, None));
     assert_eq!(of("\"lifting\""), removal(Some(Mode::Lifting), None));

@@ -122,7 +122,7 @@ pub enum Amount {
 
 /// A sphere (or a parcel of like spheres) at its start.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Particle {
+pub struct Injected {
     /// m.
     pub position: [f64; 3],
     /// m/s.
@@ -211,7 +211,7 @@ impl Injection {
 
     /// The start of particle `i`, 0 ≤ `i` < [`Injection::count`];
     /// `fluid_velocity` is asked at its time and place, only for [`Start::Fluid`].
-    pub fn particle(&self, i: u64, fluid_velocity: impl FnOnce(f64, [f64; 3]) -> [f64; 3]) -> Particle {
+    pub fn particle(&self, i: u64, fluid_velocity: impl FnOnce(f64, [f64; 3]) -> [f64; 3]) -> Injected {
         let mut draws = Stream::new(self.seed, i, Purpose::Injection, self.index);
         let size = self.sampler.quantile(draws.open_uniform());
         let share = (i as f64 + draws.uniform()) / self.count as f64;
@@ -228,7 +228,7 @@ impl Injection {
             Start::Fluid => fluid_velocity(time, position),
         };
         let weight = self.parcel_mass.map_or(1.0, |m| m / Sphere { diameter, density }.mass());
-        Particle { position, velocity, spin: self.plan.spin, diameter, density, time, weight }
+        Injected { position, velocity, spin: self.plan.spin, diameter, density, time, weight }
     }
 }
 

@@ -12,7 +12,7 @@ use carom::removal::{Fluid, Mode};
 
 /// What takes spheres off a wall.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Removal {
+pub struct Reentrainment {
     /// The one way that counts; all three where absent.
     pub mode: Option<Mode>,
     /// Friction velocity at the wall, m/s; where absent, the flow's own at the sphere.

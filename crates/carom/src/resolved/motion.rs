@@ -10,7 +10,7 @@ const MOST_STEPS: usize = 4000;
 
 /// Dimensionless parameters.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Contact {
+pub(super) struct Equation {
     pub adhesion: f64,
     pub adhesion_damping: f64,
     pub hertz_damping: f64,
@@ -62,7 +62,7 @@ struct Step {
     error: f64,
 }
 
-impl Contact {
+impl Equation {
     /// dU/dσ = 2s²(−s²(1 + C_H U) + A(1 − C_A U)).
     #[inline(always)]
     fn force<F: Fma>(&self, f: F, s: f64, u: f64, a: f64) -> f64 {

@@ -6,12 +6,12 @@ use carom::removal::Mode;
 
 const ADHESIVE: &str = "sphere = \"copper\"\nsurface = \"silicon\"\nnormal = \"ea\"\nfriction = 0.2\n";
 
-fn fall(removal: Option<Removal>) -> Log {
+fn fall(removal: Option<Reentrainment>) -> Log {
     fall_on(ADHESIVE, removal)
 }
 
 /// Spheres of 20 µm that fall slowly onto a plate in a turbulent channel and stay.
-fn fall_on(text: &str, removal: Option<Removal>) -> Log {
+fn fall_on(text: &str, removal: Option<Reentrainment>) -> Log {
     let flow = Channel::new(Profile::Turbulent, 0.03, 10.0, &Fluid::default()).unwrap();
     let domain = AnyDomain::new(Flow::Channel(flow), vec![plane("floor", [0.0; 3], [0.0, 1.0, 0.0])]);
     let laws = vec![law(text)];
@@ -37,7 +37,7 @@ fn a_flow_faster_than_the_critical_one_removes_and_a_slower_one_does_not() {
         [(None, Mode::Rolling), (Some(Mode::Sliding), Mode::Sliding), (Some(Mode::Lifting), Mode::Lifting)]
     {
         let critical = held(ADHESIVE).of(event).unwrap().friction_velocity;
-        let at = |share: f64| fall(Some(Removal { mode, friction_velocity: Some(share * critical) }));
+        let at = |share: f64| fall(Some(Reentrainment { mode, friction_velocity: Some(share * critical) }));
         assert!(at(0.999).ends.iter().all(|e| e.fate == Fate::Captured), "{mode:?}");
         let log = at(1.001);
         assert!(log.ends.iter().all(|e| e.fate == Fate::Removed && e.velocity == [0.0; 3]), "{mode:?}");
@@ -58,7 +58,7 @@ fn the_flows_own_friction_velocity_counts_where_none_is_given() {
     for (factor, fate) in [(1.0, Fate::Captured), (0.002, Fate::Removed)] {
         let text = format!("{ADHESIVE}roughness_factor = {factor}\n");
         assert_eq!(own > held(&text).rolling.friction_velocity, fate == Fate::Removed, "{own}");
-        let log = fall_on(&text, Some(Removal::default()));
+        let log = fall_on(&text, Some(Reentrainment::default()));
         assert!(log.ends.iter().all(|e| e.fate == fate), "{factor}: {:?}", log.ends[0]);
     }
 }
