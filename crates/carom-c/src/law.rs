@@ -126,7 +126,12 @@ unsafe fn text<'a>(pointer: *const c_char, what: &str) -> Result<&'a str, Refusa
 }
 
 fn file(path: &str) -> Result<String, Refusal> {
-    std::fs::read_to_string(Path::new(path)).map_err(|e| {
+    let path_of = Path::new(path);
+    // a device or a pipe may never end
+    if std::fs::metadata(path_of).is_ok_and(|about| !about.is_file() && !about.is_dir()) {
+        return Err((Status::File, format!("{path}: not a regular file, but a device or a pipe")));
+    }
+    std::fs::read_to_string(path_of).map_err(|e| {
         let said = e.to_string();
         // the number says nothing to the reader
         (Status::File, format!("{path}: {}", said.split(" (os error").next().unwrap_or(&said)))

@@ -154,13 +154,5 @@ pub fn read_points(path: &Path) -> Result<String, Failure> {
 }
 
 fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
-    use io::Read as _;
-    let name = path.display().to_string();
-    let mut bytes = Vec::new();
-    let file = std::fs::File::open(path).map_err(|e| of_file(&name, &e))?;
-    file.take(LARGEST + 1).read_to_end(&mut bytes).map_err(|e| of_file(&name, &e))?;
-    if bytes.len() as u64 > LARGEST {
-        return Err(Failure::input(format!("{name}: larger than 64 MiB, which no such file is")));
-    }
-    Ok(bytes)
+    carom_report::read_regular(path, LARGEST).map_err(|e| of_file(&path.display().to_string(), &e))
 }

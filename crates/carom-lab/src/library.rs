@@ -48,7 +48,7 @@ pub fn from_folder(folder: &Path) -> Result<Vec<Experiment>, LabError> {
         let mut experiment = Experiment::from_toml(&name, &std::fs::read_to_string(&path).map_err(failed(&path))?)?;
         let beside = path.with_extension("csv");
         if beside.exists() {
-            let bytes = std::fs::read(&beside).map_err(failed(&beside))?;
+            let bytes = carom_table::file::read_regular(&beside, points::LARGEST).map_err(failed(&beside))?;
             let text = points::text(&bytes).map_err(|e| LabError::Points(format!("{name}.csv: {e}")))?;
             points::add(&mut experiment, &format!("{name}.csv"), &text)?;
         }

@@ -9,6 +9,9 @@ use crate::experiment::{Experiment, Measured, Over, Panel, Quantity};
 use carom::LawError;
 use carom::spec::At;
 
+/// Largest file read, bytes: far beyond any measurement.
+pub const LARGEST: u64 = 64 << 20;
+
 mod reader;
 
 pub use reader::{Row, Rows, read, text};

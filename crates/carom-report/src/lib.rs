@@ -30,7 +30,7 @@ mod error;
 pub mod html;
 pub mod plot;
 
-pub use carom_table::file::write_text;
+pub use carom_table::file::{read_regular, write_text};
 pub use carom_table::{
     Cell, Column, Field, Format, Kind, Row, RowReader, Schema, Table, TableError, TableReader, TableWriter, Values,
     significant,

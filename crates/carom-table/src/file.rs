@@ -1,7 +1,7 @@
 //! Files that appear whole or not at all.
 
 use std::ffi::OsStr;
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
@@ -50,6 +50,31 @@ impl Write for NewFile {
     }
 }
 
+/// What is in a regular file of at most `largest` bytes: a device or a pipe may never end, and a pipe may never begin.
+///
+/// # Errors
+/// What cannot be read, is no regular file, or is larger.
+pub fn read_regular(path: &Path, largest: u64) -> io::Result<Vec<u8>> {
+    let about = std::fs::metadata(path)?;
+    let unfit = |what: String| io::Error::new(io::ErrorKind::InvalidInput, what);
+    if about.is_dir() {
+        return Err(unfit("a folder; name a file".to_owned()));
+    }
+    if !about.is_file() {
+        return Err(unfit("not a regular file, but a device or a pipe; save it to a file first".to_owned()));
+    }
+    let mut bytes = Vec::new();
+    // it may grow meanwhile
+    std::fs::File::open(path)?.take(largest.saturating_add(1)).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > largest {
+        return Err(io::Error::other(format!(
+            "larger than {} MiB, the most that is read of such a file",
+            largest >> 20
+        )));
+    }
+    Ok(bytes)
+}
+
 /// Writes `bytes` to `target`, whole or not at all.
 ///
 /// # Errors
@@ -71,4 +96,29 @@ pub fn write_text(target: &Path, text: &str) -> Result<(), TableError> {
 /// The path's extension in lower case, empty when there is none.
 pub fn extension(path: &Path) -> String {
     path.extension().and_then(OsStr::to_str).unwrap_or_default().to_ascii_lowercase()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_regular_files_are_read_and_no_more_of_them_than_asked() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("a.csv");
+        std::fs::write(&file, "12345").unwrap();
+        assert_eq!(read_regular(&file, 5).unwrap(), b"12345");
+        let refused = |path: &Path, largest| read_regular(path, largest).unwrap_err().to_string();
+        assert!(refused(&file, 4).contains("larger than"));
+        assert!(refused(folder.path(), 5).contains("a folder"));
+        #[cfg(unix)]
+        {
+            assert!(refused(Path::new("/dev/zero"), 5).contains("not a regular file"));
+            let pipe = folder.path().join("pipe");
+            let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+            if made.is_ok_and(|s| s.success()) {
+                assert!(refused(&pipe, 5).contains("not a regular file"));
+            }
+        }
+    }
 }

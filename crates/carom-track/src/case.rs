@@ -9,12 +9,12 @@ mod flow;
 mod injection;
 mod removal;
 mod scale;
-mod stl;
 mod text;
+mod triangles;
 mod wall;
 mod whole;
 
-pub(crate) use files::Fingerprint;
+pub(crate) use files::{Fingerprint, LARGEST};
 pub use injection::Injected;
 
 use crate::deposition::{Bins, Region};
@@ -101,7 +101,7 @@ impl Case {
         injection::distinct(read.wall.iter().map(|w| &w.value.name), "wall")?;
         let mut notes = Vec::new();
         let walls = read.wall.iter().map(|w| wall::read(w, &files, &mut notes)).collect::<Result<Vec<_>, _>>()?;
-        notes.extend(stl::left_out(read.wall.iter().filter_map(|w| w.value.stl.as_ref()), &files));
+        notes.extend(triangles::left_out(read.wall.iter().filter_map(|w| w.value.stl.as_ref()), &files));
         let largest = injections.iter().map(|i| i.largest).fold(0.0, f64::max);
         wall::contradictions(&read.wall, &walls, largest)?;
         let behaviors = read

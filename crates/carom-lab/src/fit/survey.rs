@@ -98,12 +98,19 @@ pub fn read(path: &Path, diameter: Option<f64>) -> Result<Vec<Subject>, LabError
 }
 
 fn read_file(path: &Path) -> Result<String, LabError> {
-    std::fs::read_to_string(path).map_err(|source| LabError::File { path: PathBuf::from(path), source })
+    String::from_utf8(bytes(path)?).map_err(|_| {
+        let source = std::io::Error::new(std::io::ErrorKind::InvalidData, "not a text in UTF-8");
+        LabError::File { path: PathBuf::from(path), source }
+    })
+}
+
+fn bytes(path: &Path) -> Result<Vec<u8>, LabError> {
+    let read = carom_table::file::read_regular(path, points::LARGEST);
+    read.map_err(|source| LabError::File { path: PathBuf::from(path), source })
 }
 
 fn points_file(path: &Path) -> Result<String, LabError> {
-    let bytes = std::fs::read(path).map_err(|source| LabError::File { path: PathBuf::from(path), source })?;
-    points::text(&bytes).map_err(|e| LabError::Points(format!("{}: {e}", path.display())))
+    points::text(&bytes(path)?).map_err(|e| LabError::Points(format!("{}: {e}", path.display())))
 }
 
 /// A panel's measured restitution, with the law of its first curve.

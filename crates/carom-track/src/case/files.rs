@@ -32,7 +32,7 @@ impl Fingerprint {
 }
 
 /// Largest file read, bytes; one without blocks may claim any size.
-const LARGEST: u64 = 8 << 30;
+pub(crate) const LARGEST: u64 = 8 << 30;
 
 /// Reads the files that a case names, beside it, and takes them into its fingerprint.
 pub(super) struct Files<'a> {
@@ -49,14 +49,7 @@ impl<'a> Files<'a> {
     /// What is in a file; not in what may never end, such as a device or a pipe.
     pub fn read(&self, name: &str) -> std::io::Result<Vec<u8>> {
         let path = self.folder.join(name);
-        let about = std::fs::metadata(&path)?;
-        if !about.is_file() {
-            return Err(std::io::Error::other("is not a regular file"));
-        }
-        if about.len() > LARGEST {
-            return Err(std::io::Error::other("is larger than 8 GiB, which is more than is held in memory"));
-        }
-        let bytes = std::fs::read(path)?;
+        let bytes = carom_table::file::read_regular(&path, LARGEST)?;
         self.fingerprint.set(self.fingerprint.get().with(&bytes));
         Ok(bytes)
     }

@@ -21,7 +21,7 @@ pub(super) fn notes(flow: &Flow, walls: &[Wall], behaviors: &[Behavior], injecti
     notes.extend(narrow_bores(walls, behaviors, injections));
     if let Flow::Table(table) = flow {
         let ([nx, ny, nz], [low, high]) = (table.size(), table.bounds());
-        let [x, y, z] = [0, 1, 2].map(|c| super::stl::length(high[c] - low[c]));
+        let [x, y, z] = [0, 1, 2].map(|c| super::triangles::length(high[c] - low[c]));
         notes.push(format!("flow table: {nx} x {ny} x {nz} nodes, {x} x {y} x {z}"));
         notes.extend(table.notes().iter().map(|note| format!("flow table: {note}")));
         notes.extend(injections.iter().filter_map(|i| outside(table.bounds(), i)));

@@ -58,7 +58,7 @@ fn shape(at: &At<WallText>, files: &Files, notes: &mut Vec<String>) -> Result<Sh
         shapes.extend(Mesh::block(min, max).map(Shape::Mesh));
     }
     if let Some(stl) = &text.stl {
-        let (mesh, note) = super::stl::mesh(stl, name, files)?;
+        let (mesh, note) = super::triangles::mesh(stl, name, files)?;
         shapes.push(Shape::Mesh(mesh));
         notes.push(note);
     }

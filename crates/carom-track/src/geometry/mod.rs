@@ -13,7 +13,7 @@ mod mesh;
 mod path;
 mod plane;
 mod room;
-pub mod stl;
+pub mod triangles;
 mod walls;
 
 pub use bernstein::Bernstein;

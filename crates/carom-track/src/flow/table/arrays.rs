@@ -13,7 +13,7 @@ pub(super) struct Described {
 }
 
 /// The arrays that are used, by their places in the list.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Chosen {
     /// One vector, or up to three scalars: for each component an array and the place in its tuple.
     velocity: [Option<(usize, usize)>; 3],

@@ -132,7 +132,7 @@ impl Table {
     /// [`TableError`], naming the file, line or node.
     pub fn load(path: &std::path::Path) -> Result<Self, TableError> {
         let name = path.display().to_string();
-        match std::fs::read(path) {
+        match carom_table::file::read_regular(path, crate::case::LARGEST) {
             Ok(bytes) => Self::from_file(&name, &bytes),
             Err(source) => Err(TableError::File { path: name, source }),
         }

@@ -1,8 +1,10 @@
 //! Tables as VTK XML (`.vtr` rectilinear grids and `.vti` images), as ParaView and the vtk package write them: ASCII, or binary
-//! inline or appended, raw or base64, plain or compressed with zlib.
+//! inline or appended, raw or base64, plain or compressed with zlib or LZ4, in one piece or several.
 //!
-//! XML, base64 and zlib are those of roxmltree, base64 and flate2, which the program holds for its pictures anyway; vtkio, the
-//! library for VTK, would bring second ones, and LZ4 and LZMA, of which ParaView's default needs none.
+//! XML, base64 and zlib are those of roxmltree, base64 and flate2, which the program holds for its pictures anyway, and LZ4 that of
+//! lz4_flex; vtkio, the library for VTK, would bring second ones. LZMA, which no program chooses unasked, is refused.
+
+mod pieces;
 
 use super::arrays::{Chosen, Described, cells, hidden};
 use super::columns::Validity;
@@ -28,34 +30,52 @@ fn read_or_say(file: &[u8]) -> Result<Table, String> {
     let grid =
         grid.ok_or_else(|| format!("a rectilinear grid (.vtr) or an image (.vti) is read, not {}", clipped(kind)))?;
     let pieces: Vec<Node> = grid.children().filter(|n| n.has_tag_name("Piece")).collect();
-    let [piece] = pieces[..] else {
-        return Err(format!("{} pieces; one is read", pieces.len()));
+    let whole = match pieces[..] {
+        [] => return Err("no Piece".to_owned()),
+        [one] => Extent::of(one, "Extent")?,
+        _ => Extent::of(grid, "WholeExtent")?,
     };
-    let extent: Vec<i64> = numbers(piece, "Extent")?;
-    let [a, b, c, d, e, f] = extent[..] else { return Err("Extent needs six numbers".to_owned()) };
-    let size =
-        [(a, b), (c, d), (e, f)].map(|(low, high)| high.checked_sub(low).and_then(|n| usize::try_from(n + 1).ok()));
-    // zlib makes no more than 1032 bytes of one: a size beyond is a mistake, not a reason to allocate
-    let nodes = size.iter().try_fold(1usize, |n, m| n.checked_mul((*m)?)).filter(|n| *n > 0 && n / 1032 <= file.len());
-    let ([Some(nx), Some(ny), Some(nz)], Some(nodes)) = (size, nodes) else {
-        return Err(format!("the extent {extent:?} does not fit the file"));
-    };
-    let size = [nx, ny, nz];
-    let fields = Fields::of(&form, piece, size)?;
-    // the arrays come first: what they hold tells whether the axes are worth making
-    let values = fields.read()?;
-    let hidden = fields.hidden()?;
-    debug_assert!(nodes > 0);
-    let axes = if kind == "ImageData" {
-        evenly(grid, [a, c, e], size)?
-    } else {
-        let coordinates = child(piece, "Coordinates").ok_or("no Coordinates")?;
-        let all: Vec<Node> = arrays(coordinates).collect();
-        let [x, y, z] = all[..] else { return Err("Coordinates needs three arrays".to_owned()) };
-        [form.values(x, nx)?, form.values(y, ny)?, form.values(z, nz)?]
-    };
-    let Fields { described, chosen, .. } = fields;
-    chosen.table(axes, &described, &values, hidden.as_deref())
+    // no compression makes more than 1032 bytes of one: a size beyond is a mistake, not a reason to allocate
+    if whole.nodes().is_none_or(|n| n / 1032 > file.len()) {
+        return Err(format!("the extent {whole} does not fit the file"));
+    }
+    let mut read = pieces::Pieces::new(whole);
+    for piece in &pieces {
+        read.add(&form, *piece, grid, kind == "ImageData")?;
+    }
+    read.table()
+}
+
+/// A box of nodes, by their numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Extent {
+    first: [i64; 3],
+    size: [usize; 3],
+}
+
+impl Extent {
+    fn of(node: Node, name: &str) -> Result<Self, String> {
+        let numbers: Vec<i64> = numbers(node, name)?;
+        let [a, b, c, d, e, f] = numbers[..] else { return Err(format!("{name} needs six numbers")) };
+        let size = [(a, b), (c, d), (e, f)]
+            .map(|(low, high)| high.checked_sub(low).and_then(|n| usize::try_from(n).ok()?.checked_add(1)));
+        match size {
+            [Some(x), Some(y), Some(z)] => Ok(Self { first: [a, c, e], size: [x, y, z] }),
+            _ => Err(format!("the {name} {numbers:?} does not fit the file")),
+        }
+    }
+
+    fn nodes(&self) -> Option<usize> {
+        self.size.iter().try_fold(1usize, |n, m| n.checked_mul(*m))
+    }
+}
+
+impl std::fmt::Display for Extent {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        let last = |c: usize| i128::from(self.first[c]) + self.size[c] as i128 - 1;
+        let [a, b, c] = self.first;
+        write!(f, "{a} {} {b} {} {c} {}", last(0), last(1), last(2))
+    }
 }
 
 /// The arrays of a piece, and which are used.
@@ -131,7 +151,7 @@ fn numbers<T: std::str::FromStr>(node: Node, name: &str) -> Result<Vec<T>, Strin
 }
 
 /// The axes of an image.
-fn evenly(grid: Node, first: [i64; 3], size: [usize; 3]) -> Result<[Vec<f64>; 3], String> {
+fn evenly(grid: Node, Extent { first, size }: Extent) -> Result<[Vec<f64>; 3], String> {
     if grid.attribute("Direction").is_some()
         && numbers::<f64>(grid, "Direction")? != [1., 0., 0., 0., 1., 0., 0., 0., 1.]
     {
@@ -176,23 +196,31 @@ struct Form<'a> {
     /// Sizes have 8 bytes instead of 4.
     wide: bool,
     big_endian: bool,
-    compressed: bool,
+    compressor: Option<Compressor>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Compressor {
+    Zlib,
+    Lz4,
 }
 
 impl<'a> Form<'a> {
     fn of(root: Node, appended: Appended<'a>) -> Result<Self, String> {
-        let compressed = match root.attribute("compressor") {
-            None | Some("") => false,
-            Some("vtkZLibDataCompressor") => true,
+        let compressor = match root.attribute("compressor") {
+            None | Some("") => None,
+            Some("vtkZLibDataCompressor") => Some(Compressor::Zlib),
+            Some("vtkLZ4DataCompressor") => Some(Compressor::Lz4),
             Some(other) => {
                 return Err(format!(
-                    "compressed by {}; save it with ZLib compression or none, or as legacy VTK (.vtk)",
+                    "compressed by {}, which is not read: choose ZLib, LZ4 or None as its compression when saving (in ParaView's \
+                     Save Data: Compressor Type), or save it as legacy VTK (.vtk)",
                     clipped(other)
                 ));
             }
         };
         let wide = root.attribute("header_type") == Some("UInt64");
-        Ok(Self { appended, wide, big_endian: root.attribute("byte_order") == Some("BigEndian"), compressed })
+        Ok(Self { appended, wide, big_endian: root.attribute("byte_order") == Some("BigEndian"), compressor })
     }
 
     /// The values of an array, of which so many are wanted.
@@ -226,7 +254,10 @@ impl<'a> Form<'a> {
     fn binary(&self, stretch: &mut Stretch, count: usize, kind: &str) -> Result<Vec<f64>, String> {
         let (width, read) = reader(kind, self.big_endian)?;
         let wanted = count.checked_mul(width).ok_or("too many values")?;
-        let bytes = if self.compressed { self.inflate(stretch, wanted)? } else { self.plain(stretch, wanted)? };
+        let bytes = match self.compressor {
+            Some(compressor) => self.unpack(compressor, stretch, wanted)?,
+            None => self.plain(stretch, wanted)?,
+        };
         if bytes.len() != wanted {
             return Err(format!("{} bytes where {wanted} are wanted", bytes.len()));
         }
@@ -256,7 +287,7 @@ impl<'a> Form<'a> {
     }
 
     /// Numbers and sizes of blocks, then the blocks.
-    fn inflate(&self, stretch: &mut Stretch, wanted: usize) -> Result<Vec<u8>, String> {
+    fn unpack(&self, compressor: Compressor, stretch: &mut Stretch, wanted: usize) -> Result<Vec<u8>, String> {
         let width = if self.wide { 8 } else { 4 };
         let blocks = self.sizes(&stretch.clone().part(width)?).first().copied().unwrap_or_default();
         let header = blocks.checked_add(3).and_then(|n| n.checked_mul(width)).ok_or("cut short")?;
@@ -272,9 +303,23 @@ impl<'a> Form<'a> {
         for size in sizes {
             let (block, after) = rest.split_at_checked(size).ok_or("cut short")?;
             rest = after;
-            // one byte more than wanted tells that there is too much
-            let room = (wanted + 1).saturating_sub(bytes.len()) as u64;
-            flate2::read::ZlibDecoder::new(block).take(room).read_to_end(&mut bytes).map_err(|e| e.to_string())?;
+            match compressor {
+                Compressor::Zlib => {
+                    // one byte more than wanted tells that there is too much
+                    let room = (wanted + 1).saturating_sub(bytes.len()) as u64;
+                    flate2::read::ZlibDecoder::new(block)
+                        .take(room)
+                        .read_to_end(&mut bytes)
+                        .map_err(|e| e.to_string())?;
+                }
+                Compressor::Lz4 => {
+                    let begin = bytes.len();
+                    bytes.resize(wanted.min(begin.saturating_add(first[1])), 0);
+                    let room = bytes.get_mut(begin..).unwrap_or_default();
+                    let length = lz4_flex::block::decompress_into(block, room).map_err(|e| format!("LZ4: {e}"))?;
+                    bytes.truncate(begin + length);
+                }
+            }
         }
         Ok(bytes)
     }

@@ -1,5 +1,10 @@
 use super::*;
+use crate::geometry::triangles::COARSE;
 use crate::testing::Chance;
+
+fn read(bytes: &[u8]) -> Result<Triangles, TrianglesError> {
+    crate::geometry::triangles::read("w.stl", bytes)
+}
 
 const FACET: &str =
     " facet normal 0 1 0\n  outer loop\n   vertex -1 0 -1\n   vertex -1 0 1\n   vertex 1 0 1\n  endloop\n endfacet\n";
@@ -21,7 +26,7 @@ fn bytes(header: &[u8], count: u32, facets: usize, x: f32) -> Vec<u8> {
     out
 }
 
-fn names(stl: &Stl) -> Vec<&str> {
+fn names(stl: &Triangles) -> Vec<&str> {
     stl.solids.iter().map(|s| s.name.as_str()).collect()
 }
 

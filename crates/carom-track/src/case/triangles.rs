@@ -1,21 +1,22 @@
-//! `stl = { file, unit, solid }` of a wall.
+//! `stl = { file, unit, solid }` of a wall: STL, OBJ or PLY.
 
 use super::check::{positive, wrong};
 use super::files::Files;
 use super::text::StlText;
-use crate::geometry::stl::{self, Stl};
+use crate::geometry::triangles::{self, Triangles};
 use crate::geometry::{Mesh, Triangle};
 use carom::LawError;
 use carom::spec::At;
 use carom_table::clipped;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Triangles from an STL file, text or binary, and a note of what they are; numbers are in metres unless a unit is given.
+/// Triangles from a file, and a note of what they are; numbers are in metres unless a unit is given.
 pub(super) fn mesh(at: &At<StlText>, wall: &str, files: &Files) -> Result<(Mesh, String), LawError> {
     let file = &at.value.file;
     let unit = at.value.unit.as_ref().map_or(Ok(1.0), |u| positive(u, "unit", u.value.0))?;
     let failed = |e: &dyn std::fmt::Display| wrong(file, format!("{}: {e}", file.value));
-    let read = stl::read(&files.read(&file.value).map_err(|e| failed(&e))?).map_err(|e| failed(&e))?;
+    let read =
+        triangles::read(&file.value, &files.read(&file.value).map_err(|e| failed(&e))?).map_err(|e| failed(&e))?;
     let of = match &at.value.solid {
         Some(solid) => chosen(&read, solid)?,
         None => read.triangles.clone(),
@@ -41,7 +42,7 @@ pub(super) fn left_out<'a>(walls: impl Iterator<Item = &'a At<StlText>>, files: 
     }
     let mut notes = Vec::new();
     for (file, solids) in chosen.into_iter().filter(|(file, _)| !whole.contains(file)) {
-        let Some(read) = files.read(file).ok().and_then(|bytes| stl::read(&bytes).ok()) else { continue };
+        let Some(read) = files.read(file).ok().and_then(|bytes| triangles::read(file, &bytes).ok()) else { continue };
         let idle = read.solids.iter().filter(|s| !s.triangles.is_empty() && !solids.contains(&s.name.as_str()));
         let names: Vec<String> = idle.map(|s| format!("'{}'", clipped(&s.name))).collect();
         if !names.is_empty() {
@@ -54,7 +55,7 @@ pub(super) fn left_out<'a>(walls: impl Iterator<Item = &'a At<StlText>>, files: 
 }
 
 /// The triangles of the solids of a name.
-fn chosen(read: &Stl, solid: &At<String>) -> Result<Vec<Triangle>, LawError> {
+fn chosen(read: &Triangles, solid: &At<String>) -> Result<Vec<Triangle>, LawError> {
     let named = read.solids.iter().filter(|s| s.name == solid.value);
     let triangles: Vec<Triangle> = named.flat_map(|s| read.triangles[s.triangles.clone()].iter().copied()).collect();
     if triangles.is_empty() {
@@ -66,7 +67,7 @@ fn chosen(read: &Stl, solid: &At<String>) -> Result<Vec<Triangle>, LawError> {
 }
 
 /// What was read, and what of it was left out.
-fn note(wall: &str, file: &str, read: &Stl, mesh: &Mesh) -> String {
+fn note(wall: &str, file: &str, read: &Triangles, mesh: &Mesh) -> String {
     let bounds = mesh.bounds();
     let [x, y, z] = [0, 1, 2].map(|c| length(bounds.max[c] - bounds.min[c]));
     let plural = |n: usize, what: &str| if n == 1 { format!("1 {what}") } else { format!("{n} {what}s") };
