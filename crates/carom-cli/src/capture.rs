@@ -22,6 +22,7 @@ const EXAMPLE: &str = "\
 Examples:
   carom capture --sphere copper --surface aluminium --diameter 10um --roughness-factor 0.8
   carom capture --sphere copper --surface aluminium --over diameter=1um..1mm --plot capture.svg
+  carom capture --sphere copper --surface aluminium --diameter 10um --over roughness-factor=0.05..1
   carom capture --sphere copper --surface silicon --diameter 50um --friction 0.2 --removal
   carom capture --sphere copper --over diameter=1..100um --by surface=aluminium,silicon,stainless-steel
   carom capture --sphere copper --surface silicon --diameter 'lognormal(50um, 1.3)' --over speed=0.01..1 --plot p.svg
@@ -37,7 +38,8 @@ pub struct Args {
     diameter: Option<Given>,
     #[command(flatten)]
     law: LawArgs,
-    /// A range of diameters: diameter=1um..1mm; where a value is a distribution, also of speeds
+    /// What to vary: a range (diameter=1um..1mm, roughness-factor=0.05..1) or a list (diameter=1,10,100um) of the diameter or any
+    /// number of the law; where a value is a distribution, of the diameter or the speed
     #[arg(long, value_name = "RANGE", help_heading = "Sweep")]
     over: Option<Over>,
     #[command(flatten)]
@@ -52,7 +54,7 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<(), Failure> {
     let motion = MotionArgs { diameter: args.diameter.clone(), ..MotionArgs::default() };
     let case = ImpactArgs { motion, law: args.law.clone() };
-    match args.over {
+    match &args.over {
         Some(_) if args.removal.wanted() => {
             Err(Failure::input("--removal answers for one diameter; leave out --over, or --removal"))
         }
@@ -116,16 +118,24 @@ fn one(args: &Args, case: &ImpactArgs) -> Result<(), Failure> {
     output::print(&format!("{}{default}\n\n{lines}", law.heading(diameter)))
 }
 
-fn curves(args: &Args, over: Over, case: &ImpactArgs) -> Result<(), Failure> {
+fn curves(args: &Args, over: &Over, case: &ImpactArgs) -> Result<(), Failure> {
     let files = args.grid.files()?;
     let grid = args.grid.grid(over, case)?;
     let sampling = args.samples.sampling(grid.curves.iter().any(|c| is_drawn(&c.args)));
-    if over.quantity != Swept::Diameter && !(over.quantity == Swept::Speed && sampling.is_some()) {
-        let got = over.quantity.flag();
-        return Err(Failure::input(format!(
-            "--over {got}: the capture velocity has a curve over diameter alone (and over speed the probability of \
-             sticking, where a value is a distribution)"
-        )));
+    let flag = over.quantity.flag();
+    match (over.quantity, &sampling) {
+        (Swept::Diameter, _) | (Swept::Law(_), None) | (Swept::Speed, Some(_)) => {}
+        (Swept::Law(_), Some(_)) => {
+            return Err(Failure::input(format!(
+                "--over {flag}: where values are distributions, diameter or speed runs; --by {flag}=... makes curves of it"
+            )));
+        }
+        _ => {
+            return Err(Failure::input(format!(
+                "--over {flag}: the capture velocity depends on the diameter and the law alone (over speed it has the \
+                 probability of sticking, where a value is a distribution)"
+            )));
+        }
     }
     if let Some(flag) = ["speed", "angle", "spin"].into_iter().find(|f| grid.varies(f)) {
         return Err(Failure::input(format!("--by {flag}: the capture velocity does not depend on it")));
@@ -136,11 +146,12 @@ fn curves(args: &Args, over: Over, case: &ImpactArgs) -> Result<(), Failure> {
     let mut figures = Vec::with_capacity(grid.curves.len() * grid.points.len());
     let mut laws = Vec::new();
     for curve in &grid.curves {
-        let law = curve.args.law.compile(false)?;
-        for diameter in &grid.points {
-            figures.push(Figures::new(&law.wall, *diameter)?);
+        let along = curve.laws(&grid)?;
+        let each = along.iter().chain(along.last().into_iter().cycle());
+        for (point, law) in grid.points.iter().zip(each) {
+            figures.push(Figures::new(&law.wall, curve.at(grid.quantity(), *point).wanted_diameter()?)?);
         }
-        laws.push(law);
+        laws.extend(along.into_iter().next());
     }
     let table = || table(&grid, &figures);
     grid.show(&files, table, table, || {

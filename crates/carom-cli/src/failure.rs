@@ -100,9 +100,16 @@ impl Wording for InFile {
     }
 }
 
-/// A line on standard error; when that is closed too, nothing is left to do.
+/// A line on standard error, its first word coloured where that is a terminal; when it is closed too, nothing is left to do.
 pub fn say(line: &str) {
-    let _ = writeln!(io::stderr(), "{line}");
+    use clap::builder::styling::{AnsiColor, Style};
+    let color = |color: AnsiColor| Style::new().bold().fg_color(Some(color.into()));
+    let marked = [("note:", color(AnsiColor::Cyan)), ("wrote", color(AnsiColor::Green))];
+    let mut to = anstream::stderr();
+    let _ = match marked.into_iter().find_map(|(word, style)| Some((word, style, line.strip_prefix(word)?))) {
+        Some((word, style, rest)) => writeln!(to, "{style}{word}{style:#}{rest}"),
+        None => writeln!(to, "{line}"),
+    };
 }
 
 /// Through clap, so that all errors in a line look alike and know whether the terminal takes colours.

@@ -26,7 +26,7 @@ pub struct GridArgs {
     /// commas are separated by ';'
     #[arg(long, value_name = "FLAG=A,B,...", help_heading = "Sweep")]
     by: Vec<By>,
-    /// Number of points
+    /// Number of points of a range
     #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u32).range(2..=1_000_000), help_heading = "Sweep")]
     points: u32,
     /// Equal steps instead of equal ratios (an angle always has equal steps)
@@ -86,7 +86,7 @@ impl GridArgs {
     }
 
     /// Lays a map out: the points of `across` for each point of `up`.
-    pub fn map(&self, across: Over, up: Over, base: &ImpactArgs) -> Result<(GridArgs, Vec<f64>), Failure> {
+    pub fn map(&self, across: &Over, up: &Over, base: &ImpactArgs) -> Result<(GridArgs, Vec<f64>), Failure> {
         if !self.by.is_empty() {
             return Err(Failure::input("--by makes curves, and two --over make a map; leave one of them out"));
         }
@@ -98,7 +98,7 @@ impl GridArgs {
             return Err(Failure::input("a map has one value of each flag; a distribution cannot be drawn there"));
         }
         let points = up.points(self.points as usize, self.is_linear(up));
-        Ok((Self { by: vec![By::along(&up, &points)], ..self.clone() }, points))
+        Ok((Self { by: vec![By::along(up, &points)], ..self.clone() }, points))
     }
 
     /// The files, checked.
@@ -107,7 +107,7 @@ impl GridArgs {
     }
 
     /// Lays the grid out.
-    pub fn grid(&self, over: Over, base: &ImpactArgs) -> Result<Grid<'_>, Failure> {
+    pub fn grid(&self, over: &Over, base: &ImpactArgs) -> Result<Grid<'_>, Failure> {
         let swept = over.quantity.flag();
         let mut keys: Vec<&str> = vec![swept];
         for by in &self.by {
@@ -127,12 +127,6 @@ impl GridArgs {
             curves = more;
         }
         let count = self.points as usize;
-        if curves.len().saturating_mul(count) > MOST {
-            return Err(Failure::input(format!(
-                "{} curves of {count} points are too many rows; at most {MOST}",
-                curves.len()
-            )));
-        }
         let drawn = |c: &Curve| c.args.motion.diameter.as_ref().is_some_and(|d| d.distribution().is_some());
         if over.quantity == Swept::Diameter && curves.iter().any(drawn) {
             return Err(Failure::input("--diameter is a distribution, but --over runs through the diameter; keep one"));
@@ -144,11 +138,18 @@ impl GridArgs {
             return Err(Failure::input(format!("--{flag} is a distribution, but --over runs through it; keep one")));
         }
         let points = over.points(count, self.is_linear(over));
-        Ok(Grid { args: self, over, points, curves })
+        if curves.len().saturating_mul(points.len()) > MOST {
+            return Err(Failure::input(format!(
+                "{} curves of {} points are too many rows; at most {MOST}",
+                curves.len(),
+                points.len()
+            )));
+        }
+        Ok(Grid { args: self, over: over.clone(), points, curves })
     }
 
     /// Whether a range has equal steps.
-    pub fn is_linear(&self, over: Over) -> bool {
+    pub fn is_linear(&self, over: &Over) -> bool {
         self.linear || over.is_linear()
     }
 }
@@ -243,7 +244,7 @@ impl Grid<'_> {
 
     /// The horizontal axis.
     pub fn axis(&self) -> Axis {
-        self.over.axis(self.args.is_linear(self.over))
+        self.over.axis(self.args.is_linear(&self.over))
     }
 
     /// A line for each curve: colour by the first `--by`, dashes by the second.

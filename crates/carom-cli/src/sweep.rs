@@ -42,8 +42,8 @@ The table goes to standard output unless a file is asked for with --out or --plo
 pub struct Args {
     #[command(flatten)]
     case: ImpactArgs,
-    /// What to vary, with its range: speed=0.1m/s..30m/s, diameter=1um..100um, angle=5..90, friction=0..0.5, or any other
-    /// number of the impact or the law
+    /// What to vary: a range (speed=0.1m/s..30m/s, diameter=1um..100um, angle=5..90, friction=0..0.5) or a list
+    /// (speed=1,2,5m/s) of any number of the impact or the law
     ///
     /// Given twice it is a map: the regions of capture, rebound and rebound with yield.
     #[arg(long, value_name = "RANGE", required = true, help_heading = "Sweep")]
@@ -102,7 +102,7 @@ impl Shown {
 /// Runs the subcommand.
 pub fn run(args: &Args) -> Result<(), Failure> {
     let files = args.grid.files()?;
-    let over = match args.over[..] {
+    let over = match &args.over[..] {
         [over] => over,
         [across, up] => return map::run(args, across, up),
         _ => return Err(Failure::input("--over makes a curve, twice a map; --by adds more")),

@@ -259,5 +259,6 @@ fn two_ranges_make_a_map_of_capture_rebound_and_yield() {
     assert_eq!(table.lines().count(), 1 + 12 * 12);
     assert!(table.contains("capture") && table.contains("rebound"));
     let svg = std::fs::read_to_string(&plot).expect("a map");
-    assert!(svg.contains("0 capture, 1 rebound, 2 rebound with yield"), "{svg}");
+    let named = |class: &str| svg.lines().any(|line| line.trim() == class);
+    assert!(["capture", "rebound", "rebound with yield"].into_iter().all(named), "{svg}");
 }

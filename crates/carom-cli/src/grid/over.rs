@@ -61,8 +61,8 @@ impl Swept {
     }
 }
 
-/// `speed=0.1m/s..30m/s`
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// `speed=0.1m/s..30m/s`, or `speed=1,2,5m/s`
+#[derive(Clone, Debug, PartialEq)]
 pub struct Over {
     /// What runs.
     pub quantity: Swept,
@@ -72,6 +72,8 @@ pub struct Over {
     pub to: f64,
     /// The unit of length it was given in.
     pub unit: Option<LengthUnit>,
+    /// The values between the ends and with them, where they were listed.
+    list: Option<Vec<f64>>,
 }
 
 /// A unit of length, and what it is in metres.
@@ -88,7 +90,7 @@ pub fn length_unit(text: &str) -> Option<LengthUnit> {
 impl std::str::FromStr for Over {
     type Err = String;
     fn from_str(text: &str) -> Result<Self, String> {
-        let form = "a range is wanted, such as speed=0.1m/s..30m/s";
+        let form = "a range or a list is wanted, such as speed=0.1m/s..30m/s or speed=1,2,5m/s";
         let (name, range) = text.split_once('=').ok_or(form)?;
         let name = name.trim().trim_start_matches("--").replace('_', "-");
         let quantity = Swept::all().find(|q| q.flag() == name).ok_or_else(|| {
@@ -96,8 +98,11 @@ impl std::str::FromStr for Over {
             let near = did_you_mean(&name, names.iter().copied()).map_or(String::new(), |n| format!("{n} "));
             format!("unknown quantity '{name}'; {near}known are {}", names.join(", "))
         })?;
-        let (from, to) = range.split_once("..").ok_or(form)?;
-        Self::between(quantity, from, to)
+        match range.split_once("..") {
+            Some((from, to)) => Self::between(quantity, from, to),
+            None if range.contains(',') => Self::listed(quantity, range),
+            None => Err(form.to_owned()),
+        }
     }
 }
 
@@ -118,10 +123,24 @@ impl Over {
         let (low, high) = (quantity.read(&with_unit(from, to))?, quantity.read(to)?);
         if low < high {
             let unit = length_unit(&with_unit(from, to)).filter(|_| quantity == Swept::Diameter);
-            Ok(Self { quantity, from: low, to: high, unit })
+            Ok(Self { quantity, from: low, to: high, unit, list: None })
         } else {
             Err(format!("the range '{from}..{to}' does not rise; a range is wanted, such as speed=0.1m/s..30m/s"))
         }
+    }
+
+    /// Through the values of a list, which share the unit of the last.
+    fn listed(quantity: Swept, text: &str) -> Result<Self, String> {
+        let written: Vec<&str> = text.split(',').collect();
+        let last = written.last().copied().unwrap_or_default();
+        let read = |value: &&str| quantity.read(&with_unit(value, last));
+        let values = written.iter().map(read).collect::<Result<Vec<_>, _>>()?;
+        let [from, .., to] = values[..] else { return Err("a list has two values or more".to_owned()) };
+        if !values.is_sorted_by(|a, b| a < b) {
+            return Err(format!("the list '{text}' does not rise; each value is to be above the one before"));
+        }
+        let unit = length_unit(last).filter(|_| quantity == Swept::Diameter);
+        Ok(Self { quantity, from, to, unit, list: Some(values) })
     }
 
     /// Whether it runs in equal steps: an angle does, and what has no ratio.
@@ -149,8 +168,11 @@ impl Over {
         if linear { axis } else { axis.log() }
     }
 
-    /// The points: equal ratios, or equal steps; both ends exact.
+    /// The points: those of the list, or equal ratios, or equal steps; both ends exact.
     pub fn points(&self, count: usize, linear: bool) -> Vec<f64> {
+        if let Some(list) = &self.list {
+            return list.clone();
+        }
         let last = count - 1;
         let between = |i: usize| {
             let share = i as f64 / last as f64;
@@ -185,17 +207,30 @@ mod tests {
     }
 
     #[test]
+    fn lists_share_their_unit_and_are_taken_as_they_are() {
+        let over: Over = "diameter=1,2,5um".parse().expect("a list");
+        assert_eq!(over.points(200, false), [1e-6, 2e-6, 5e-6]);
+        assert_eq!((over.from, over.to, over.unit), (1e-6, 5e-6, Some(("um", 1e-6))));
+        let over: Over = "speed=1, 200 cm/s, 5 m/s".parse().expect("a list");
+        assert_eq!(over.points(2, true), [1.0, 2.0, 5.0]);
+    }
+
+    #[test]
     fn ranges_that_are_none_are_refused() {
         for (text, part) in [
             ("sped=1..2", "did you mean speed?"),
-            ("speed", "a range is wanted"),
-            ("speed=1", "a range is wanted"),
+            ("speed", "a range or a list is wanted"),
+            ("speed=1", "a range or a list is wanted"),
             ("speed=2..1", "does not rise"),
             ("speed=1..1", "does not rise"),
             ("speed=0..1", "above 0"),
             ("speed=1..NaN", "finite"),
             ("angle=10..91", "up to 90"),
             ("diameter=1um..1kg", "no unit of length"),
+            ("speed=1,5,2", "does not rise"),
+            ("speed=1,1", "does not rise"),
+            ("speed=1,", "no number"),
+            ("diameter=1,2kg", "no unit of length"),
         ] {
             let error = text.parse::<Over>().expect_err(text);
             assert!(error.contains(part), "{text}: {error}");

@@ -10,7 +10,7 @@ use carom::Validity;
 use carom_report::{Axis, HeatMap};
 
 /// The regions, in the order of their numbers.
-const REGIONS: &str = "0 capture, 1 rebound, 2 rebound with yield";
+const REGIONS: [&str; 3] = ["capture", "rebound", "rebound with yield"];
 
 /// The region of an impact.
 fn region(law: &Law, motion: &Motion, met: &Met) -> f64 {
@@ -26,7 +26,7 @@ fn region(law: &Law, motion: &Motion, met: &Met) -> f64 {
 }
 
 /// Makes the map.
-pub fn run(args: &Args, across: Over, up: Over) -> Result<(), Failure> {
+pub fn run(args: &Args, across: &Over, up: &Over) -> Result<(), Failure> {
     let files = args.grid.files()?;
     refuse_samples(&args.samples)?;
     if args.data.is_some() {
@@ -53,7 +53,8 @@ pub fn run(args: &Args, across: Over, up: Over) -> Result<(), Failure> {
         |path| {
             let name = args.grid.title().map_or_else(|| title(&grid, &laws), str::to_owned);
             let (linear_x, linear_y) = (args.grid.is_linear(across), args.grid.is_linear(up));
-            HeatMap::new(name, across.axis(linear_x), up.axis(linear_y), Axis::new(REGIONS, "").range(0.0, 2.0))
+            HeatMap::new(name, across.axis(linear_x), up.axis(linear_y), Axis::new("", ""))
+                .classes(REGIONS)
                 .cells(edges(&grid.points, linear_x), edges(&rows, linear_y), regions.iter().copied())
                 .write(path)
         },

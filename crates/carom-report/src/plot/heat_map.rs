@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::canvas::{Anchor, Canvas, Label, Stroke};
+use super::font;
 use super::frame::{Frame, LABEL, TICK, vertical_ticks, widest};
 #[cfg(feature = "png")]
 use super::png;
@@ -43,6 +44,8 @@ pub struct HeatMap {
     pub values: Vec<f64>,
     /// Colours.
     pub colors: ColorMap,
+    /// Names of the values 0, 1, 2, ...: a legend stands beside the map in place of the colour bar.
+    pub classes: Vec<String>,
     /// Width and height in CSS pixels.
     pub size: (u32, u32),
 }
@@ -61,6 +64,7 @@ impl HeatMap {
             y_edges: none(),
             values: none(),
             colors: ColorMap::Viridis,
+            classes: Vec::new(),
             size: SIZE,
         }
     }
@@ -83,6 +87,14 @@ impl HeatMap {
     #[must_use]
     pub fn colors(mut self, colors: ColorMap) -> Self {
         self.colors = colors;
+        self
+    }
+
+    /// Names the values 0, 1, 2, ... of a map of kinds instead of amounts.
+    #[must_use]
+    pub fn classes<T: Into<String>>(mut self, names: impl IntoIterator<Item = T>) -> Self {
+        self.classes = names.into_iter().map(Into::into).collect();
+        self.value = self.value.range(0.0, self.classes.len().saturating_sub(1).max(1) as f64);
         self
     }
 
@@ -109,12 +121,23 @@ impl HeatMap {
         let x = Scaled::new(&self.x, self.x_edges.iter().copied(), Margin::None);
         let y = Scaled::new(&self.y, self.y_edges.iter().copied(), Margin::None);
         let ticks = vertical_ticks(&value, f64::from(self.size.1) - 110.0);
-        let beside =
-            18.0 + BAR_WIDTH + 9.0 + widest(&ticks) + if self.value.heading().is_empty() { 14.0 } else { 38.0 };
+        let names = self.classes.iter().map(|name| font::width(name, TICK)).fold(0.0, f64::max);
+        let beside = 18.0
+            + BAR_WIDTH
+            + 9.0
+            + match (self.classes.is_empty(), self.value.heading().is_empty()) {
+                (false, _) => names + 14.0,
+                (true, true) => widest(&ticks) + 14.0,
+                (true, false) => widest(&ticks) + 38.0,
+            };
         let frame = Frame::new(&self.title, (&self.x, &self.y), (x, y), self.size, beside);
         let mut canvas = Canvas::new(frame.size);
         self.draw_cells(&mut canvas, &frame, &value);
-        self.draw_bar(&mut canvas, &frame, &ticks);
+        if self.classes.is_empty() {
+            self.draw_bar(&mut canvas, &frame, &ticks);
+        } else {
+            self.draw_legend(&mut canvas, &frame, &value);
+        }
         frame.axes(&mut canvas, &self.title, &self.x, &self.y);
         Ok(canvas)
     }
@@ -138,6 +161,21 @@ impl HeatMap {
                 let [from, to] = [from, further].map(|p| frame.rect.clamp(p));
                 canvas.rectangle(from, to, color, 1.0);
             }
+        }
+    }
+
+    /// A square of its colour and its name for each class, the last on top.
+    fn draw_legend(&self, canvas: &mut Canvas, frame: &Frame, value: &Scaled) {
+        const STEP: f64 = BAR_WIDTH + 10.0;
+        let (left, right) = (frame.rect.right + 18.0, frame.rect.right + 18.0 + BAR_WIDTH);
+        let middle = 0.5 * (frame.rect.top + frame.rect.bottom);
+        let first = middle + 0.5 * STEP * self.classes.len() as f64 - STEP;
+        for (number, name) in self.classes.iter().enumerate() {
+            let top = first - STEP * number as f64;
+            let color = value.share_or_low(number as f64).map_or(MISSING, |share| self.colors.at(share));
+            canvas.rectangle([left, top], [right, top + BAR_WIDTH], color, 1.0);
+            let at = [right + 9.0, top + 0.5 * BAR_WIDTH + 0.36 * TICK];
+            canvas.text(at, Label::new(name, TICK, Anchor::Start));
         }
     }
 

@@ -82,6 +82,8 @@ pub(super) struct Contact<'a, D: Domain> {
     /// The wall it is on, and its normal there.
     pub wall: usize,
     pub normal: Vec3,
+    /// Whether it has been where nothing is known of the fluid.
+    pub strayed: bool,
     rolls: bool,
     next: f64,
     /// By how much a path is lifted off what the sphere touches, before other walls are looked for, m.
@@ -123,6 +125,7 @@ impl<'a, D: Domain> Contact<'a, D> {
             worn,
             wall,
             normal,
+            strayed: false,
             rolls,
             next,
             lift,
@@ -290,7 +293,10 @@ impl<'a, D: Domain> Contact<'a, D> {
             }
             match stop {
                 Stop::Whole => {}
-                Stop::Edge(into) => self.here = into,
+                Stop::Edge(into) => {
+                    self.here = into;
+                    self.strayed |= self.walk.domain.is_beyond(into);
+                }
                 Stop::Wall(hit) => return Ending::Meets(self.touch(hit)),
                 Stop::Grip => self.rolls = !self.rolls,
                 Stop::Press if surface.list().len() == 1 => return Ending::Leaves(self.lost(&surface)),

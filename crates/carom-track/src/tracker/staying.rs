@@ -50,7 +50,7 @@ impl<D: Domain> Walk<'_, D> {
                 }
             };
             let ending = contact.run(trace);
-            self.bring(crew, l, &contact);
+            self.bring(crew, l, &contact, sink);
             match ending {
                 Ending::Rests => break (Some(Event::Settle), Some(Fate::Settled)),
                 Ending::TimeIsUp => break (None, Some(Fate::Sliding)),
@@ -115,7 +115,7 @@ impl<D: Domain> Walk<'_, D> {
                     sink.point(number, time, m.x, m.v, m.spin);
                 }
             });
-            self.bring(crew, l, &contact);
+            self.bring(crew, l, &contact, sink);
             match ending {
                 Ending::Stalls => {
                     sink.stalled();
@@ -177,7 +177,17 @@ impl<D: Domain> Walk<'_, D> {
     }
 
     /// Brings a lane up to its contact motion.
-    fn bring<const W: usize>(&self, crew: &mut Crew<W, D::Here>, l: usize, contact: &Contact<'_, D>) {
+    fn bring<const W: usize>(
+        &self,
+        crew: &mut Crew<W, D::Here>,
+        l: usize,
+        contact: &Contact<'_, D>,
+        sink: &mut dyn Sink,
+    ) {
+        if contact.strayed && !crew.lanes[l].strayed {
+            crew.lanes[l].strayed = true;
+            sink.strayed();
+        }
         (crew.time[l], crew.here[l], crew.steps[l]) = (contact.time, contact.here, contact.steps);
         put(crew, l, contact.motion.x, contact.motion.v, contact.motion.spin);
     }

@@ -203,6 +203,28 @@ fn the_faces_of_a_wall_of_triangles_hold_what_it_kept() {
     assert!(files(&at("whole")) == files(&at("merged")));
 }
 
+/// One of two spheres that slide along a floor leaves the table on it.
+#[test]
+fn spheres_that_slide_out_of_the_table_are_counted() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("flow.csv"), "x,u\n0,1\n1,1\n").unwrap();
+    let sphere = |x: f64| {
+        format!(
+            "[[injection]]\ndensity = 1000\ndiameter = \"1 mm\"\nposition = [{x}, \"0.5 mm\", 0]\nvelocity = [1, -0.1, 0]\n"
+        )
+    };
+    let text = format!(
+        "[flow]\nkind = \"table\"\nfile = \"flow.csv\"\n[forces]\ngravity = [0, -9.81, 0]\ndrag = \"none\"\n\
+         [[wall]]\nname = \"floor\"\nplane = {{ point = [0, 0, 0], normal = [0, 1, 0] }}\nlaw = \"ice\"\n\
+         [law.ice]\nnormal = \"constant\"\nrestitution = 0\nfriction = 0\n{}{}[run]\nuntil = \"0.5 s\"\n",
+        sphere(0.1),
+        sphere(0.9),
+    );
+    let case = Case::from_toml(&text, &folder.path().join("case.toml"), Library::builtin()).unwrap();
+    let summary = run(&case, &options(&folder.path().join("out"), 1), &Silent).unwrap();
+    assert_eq!(summary.strayed, 1);
+}
+
 /// Of three spheres that follow 1 m/s in a table of 1 m, one leaves it in 0.5 s, and one begins outside.
 #[test]
 fn spheres_outside_the_table_are_counted() {
