@@ -1,4 +1,4 @@
-//! Any text as a case file: it is read or refused, never a panic. `cargo +nightly fuzz run case`
+//! Any text as a case file: it is read or refused, never a panic. `cargo fuzz run case`
 #![no_main]
 
 use carom::material::Library;

@@ -1,4 +1,4 @@
-//! Any text as a wall law: it is refused, or it answers within its invariants. `cargo +nightly fuzz run law`
+//! Any text as a wall law: it is refused, or it answers within its invariants. `cargo fuzz run law`
 #![no_main]
 
 use carom::{Impact, material::Library, spec::parse_law};

@@ -1,4 +1,4 @@
-//! Any bytes as measured points: they are read or refused, with a place in the text. `cargo +nightly fuzz run points`
+//! Any bytes as measured points: they are read or refused, with a place in the text. `cargo fuzz run points`
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

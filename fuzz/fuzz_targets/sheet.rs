@@ -1,4 +1,4 @@
-//! Any bytes as a text table: places lie in its text, numbers are finite. `cargo +nightly fuzz run sheet`
+//! Any bytes as a text table: places lie in its text, numbers are finite. `cargo fuzz run sheet`
 #![no_main]
 
 use carom_table::Sheet;

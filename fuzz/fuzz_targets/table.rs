@@ -1,4 +1,4 @@
-//! Any bytes as a flow table, in each of its forms: it is read or refused, never a panic. `cargo +nightly fuzz run table`
+//! Any bytes as a flow table, in each of its forms: it is read or refused, never a panic. `cargo fuzz run table`
 #![no_main]
 
 use carom_track::flow::Table;

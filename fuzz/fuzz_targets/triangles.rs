@@ -1,4 +1,4 @@
-//! Any bytes as a file of triangles, in each format: triangles with finite corners, or a refusal. `cargo +nightly fuzz run triangles`
+//! Any bytes as a file of triangles, in each format: triangles with finite corners, or a refusal. `cargo fuzz run triangles`
 #![no_main]
 
 use carom_track::geometry::{Mesh, triangles};

@@ -28,7 +28,7 @@ const STYLES: Styles = Styles::styled()
 
 /// Impacts of small particles on walls: capture or rebound, with the speed, angle and spin after the rebound
 #[derive(Parser)]
-#[command(name = "carom", version, after_help = EXAMPLES, max_term_width = 110, styles = STYLES, subcommand_required = true)]
+#[command(name = "carom", version, propagate_version = true, after_help = EXAMPLES, max_term_width = 110, styles = STYLES, subcommand_required = true)]
 pub struct Cli {
     #[command(subcommand)]
     command: Command,

@@ -97,6 +97,7 @@ impl GridArgs {
         if drawn || base.law.drawn().next().is_some() {
             return Err(Failure::input("a map has one value of each flag; a distribution cannot be drawn there"));
         }
+        refuse_idle(up, base)?;
         let points = up.points(self.points as usize, self.is_linear(up));
         Ok((Self { by: vec![By::along(up, &points)], ..self.clone() }, points))
     }
@@ -137,6 +138,7 @@ impl GridArgs {
             let flag = over.quantity.flag();
             return Err(Failure::input(format!("--{flag} is a distribution, but --over runs through it; keep one")));
         }
+        refuse_idle(over, base)?;
         let points = over.points(count, self.is_linear(over));
         if curves.len().saturating_mul(points.len()) > MOST {
             return Err(Failure::input(format!(
@@ -350,6 +352,24 @@ impl Grid<'_> {
         } else {
             Ok(())
         }
+    }
+}
+
+/// A value of what runs would silently do nothing.
+fn refuse_idle(over: &Over, base: &ImpactArgs) -> Result<(), Failure> {
+    let motion = &base.motion;
+    let given = match over.quantity {
+        Swept::Speed => motion.speed.is_some(),
+        Swept::Diameter => motion.diameter.is_some(),
+        Swept::Angle => motion.angle.is_some(),
+        Swept::Spin => motion.spin.is_some(),
+        Swept::Law(key) => base.law.gives(key),
+    };
+    let flag = over.quantity.flag();
+    if given {
+        Err(Failure::input(format!("--{flag} has no effect: --over runs through it; leave one out")))
+    } else {
+        Ok(())
     }
 }
 

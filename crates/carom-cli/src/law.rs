@@ -229,6 +229,11 @@ impl LawArgs {
         matches!(self.given.get(&key), Some(Given::Drawn(_)))
     }
 
+    /// Is it given by a flag?
+    pub fn gives(&self, key: Key) -> bool {
+        self.given.contains_key(&key)
+    }
+
     /// Is the normal law named, by a flag or in a file?
     fn is_named(&self) -> bool {
         self.wall_law.is_some() || self.given.contains_key(&Key::Normal)

@@ -139,7 +139,7 @@ fn nothing_is_written_where_something_is_wrong() {
         "sweep --sphere copper --surface silicon --diameter 90um --over speed=1..2 --out t.csv --plot no/t.svg",
         "sweep --sphere copper --surface silicon --diameter 90um --over speed=1..2 --out t.svg --plot t.svg",
         "sweep --sphere copper --surface silicon --over speed=1..2 --by diameter=1um,1kg --out t.csv",
-        "sweep --sphere copper --surface silicon --diameter 9um --surface-curvature -20um --over diameter=1..90um --out t.csv",
+        "sweep --sphere copper --surface silicon --surface-curvature -20um --over diameter=1..90um --out t.csv",
         "impact --sphere copper --surface silicon --diameter 9um --speed 2 --history t.csv",
         "impact --sphere copper --surface silicon --diameter 9um --speed 2 --law resolved --history t.xls",
         "capture --sphere copper --surface silicon --over diameter=1..2 --by friction=x --out t.csv",
