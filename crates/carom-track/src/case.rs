@@ -6,6 +6,7 @@
 mod check;
 mod files;
 mod flow;
+mod fluid;
 mod injection;
 mod removal;
 mod scale;
@@ -84,9 +85,9 @@ impl Case {
         let laws = carom::spec::parse_laws(text)?;
         let files = Files::new(name, text);
         let seed = read.seed.map_or(1, |s| s.0);
-        let fluid = flow::fluid(read.fluid.as_ref())?;
+        let (fluid, liquid) = fluid::fluid(read.fluid.as_ref())?;
         let flow = flow::flow(read.flow.as_ref(), &fluid, &files)?;
-        let dynamics = flow::dynamics(&read.forces, fluid)?;
+        let dynamics = flow::dynamics(&read.forces, fluid, liquid)?;
         let injections = read
             .injection
             .iter()
@@ -123,6 +124,7 @@ impl Case {
         let output = read.output;
         let bins = bins(&output)?;
         notes.extend(read.forces.gravity.is_none().then(|| "no gravity: [forces] gives none".to_owned()));
+        notes.extend(fluid::notes(read.fluid.as_ref(), &dynamics, &flow, &injections));
         notes.extend(scale::notes(&flow, &walls, &behaviors, &injections));
         Ok(Self {
             title: read.title.unwrap_or_default(),

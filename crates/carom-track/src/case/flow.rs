@@ -1,39 +1,14 @@
-//! `[fluid]`, `[flow]` and `[forces]`.
+//! `[flow]` and `[forces]`.
 
 use super::check::{needed, placed, unknown, word, wrong};
 use super::files::Files;
-use super::text::{FlowText, FluidText, ForcesText, Si};
+use super::text::{FlowText, ForcesText, Si};
 use crate::dynamics::Dynamics;
 use crate::flow::{Channel, Flow, Fluid, Named, Pipe, Profile, RoundJet, SlotJet, Stagnation, Symmetry, Table};
 use crate::force::{Drag, Forces, Life, NearWall, RandomWalk, Slip};
 use carom::LawError;
 use carom::spec::At;
 use carom_table::quoted;
-
-const ATMOSPHERE: f64 = 101_325.0;
-
-/// Air at 24 °C where nothing else is said.
-pub(super) fn fluid(text: Option<&At<FluidText>>) -> Result<Fluid, LawError> {
-    let Some(text) = text else { return Ok(Fluid::default()) };
-    let mut fluid = match &text.temperature {
-        Some(t) if text.density.is_none() || text.viscosity.is_none() => {
-            Fluid::air(t.value.0, ATMOSPHERE).map_err(|e| placed(t, e))?
-        }
-        Some(t) => Fluid { temperature: t.value.0, ..Fluid::default() },
-        None => Fluid::default(),
-    };
-    if let Some(density) = &text.density {
-        fluid.density = density.value.0;
-    }
-    if let Some(viscosity) = &text.viscosity {
-        fluid.viscosity = viscosity.value.0;
-    }
-    if let Some(path) = &text.mean_free_path {
-        fluid.mean_free_path = path.value.0;
-    }
-    fluid.check().map_err(|e| placed(text, e))?;
-    Ok(fluid)
-}
 
 const KINDS: [&str; 8] = ["still", "uniform", "channel", "pipe", "stagnation", "slot-jet", "round-jet", "table"];
 const COLUMNS: [&str; 9] = ["x", "y", "z", "u", "v", "w", "k", "epsilon", "omega"];
@@ -142,8 +117,8 @@ fn refuse_others(text: &At<FlowText>, kind: &str) -> Result<(), LawError> {
     Ok(())
 }
 
-/// The forces; without the table, Schiller–Naumann drag and no gravity.
-pub(super) fn dynamics(text: &ForcesText, fluid: Fluid) -> Result<Dynamics, LawError> {
+/// The forces; without the table, Schiller–Naumann drag, Davies' slip in a gas and no gravity.
+pub(super) fn dynamics(text: &ForcesText, fluid: Fluid, liquid: bool) -> Result<Dynamics, LawError> {
     const DRAGS: [(&str, Drag); 4] = [
         ("none", Drag::None),
         ("stokes", Drag::Stokes),
@@ -151,7 +126,12 @@ pub(super) fn dynamics(text: &ForcesText, fluid: Fluid) -> Result<Dynamics, LawE
         ("morsi-alexander", Drag::MorsiAlexander),
     ];
     let drag = text.drag.as_ref().map_or(Ok(Drag::SchillerNaumann), |d| word(d, "drag law", &DRAGS))?;
-    let slip = text.slip.as_ref().map_or(Ok(Slip::None), |s| word(s, "slip correction", &SLIPS))?;
+    let usual = if liquid { Slip::None } else { Slip::Davies };
+    let slip = text.slip.as_ref().map_or(Ok(usual), |s| word(s, "slip correction", &SLIPS))?;
+    if let Some(s) = text.slip.as_ref().filter(|_| liquid && slip != Slip::None) {
+        return Err(wrong(s, "slip in a liquid")
+            .help("only a gas slips at small spheres: leave it out, or leave out liquid = true"));
+    }
     let forces = Forces {
         gravity: text.gravity.as_ref().map_or([0.0; 3], |g| g.value.si()),
         // a vacuum buoys nothing

@@ -1,6 +1,7 @@
 use super::*;
 
 mod curvature;
+mod fluid;
 mod stl;
 
 const GOOD: &str = r#"

@@ -6,8 +6,8 @@ use crate::tables::TableFormat;
 use carom::material::MaterialRef;
 use carom::spec::{At, CurveSpec};
 use carom::units::{
-    Acceleration, AngularVelocity, Density, Frequency, Length, Mass, MassFlow, Number, Speed, Temperature, Time,
-    Viscosity,
+    Acceleration, AngularVelocity, Density, Frequency, Length, Mass, MassFlow, Number, Pressure, Speed, Temperature,
+    Time, Viscosity,
 };
 
 /// A case file.
@@ -39,6 +39,10 @@ pub(super) struct FluidText {
     pub density: Option<At<Density>>,
     pub viscosity: Option<At<Viscosity>>,
     pub temperature: Option<At<Temperature>>,
+    pub pressure: Option<At<Pressure>>,
+    pub humidity: Option<At<Number>>,
+    pub gas: Option<At<String>>,
+    pub liquid: Option<At<bool>>,
     pub mean_free_path: Option<At<Length>>,
 }
 

@@ -1,12 +1,7 @@
-//! The fluid's properties.
-//!
-//! Air as an ideal gas: density ρ = p/(R_s T), R_s = 287.05 J/(kg K); viscosity by Sutherland's law
-//! μ = 1.458e-6 T^{3/2}/(T + 110.4) Pa s (U.S. Standard Atmosphere 1976, NOAA-S/T 76-1562, section 1.3.11; 170–1900 K);
-//! mean free path λ = μ/(0.499 ρ c̄), c̄ = √(8 R_s T/π) (Chapman & Cowling as quoted by Willeke 1976,
-//! J. Aerosol Sci. 7, 381–387, doi:10.1016/0021-8502(76)90024-0).
-//! Moisture is left out: at 24 °C and 25 % relative humidity it lowers the density by 0.3 %.
+//! The fluid's properties; what of a gas follows from what is in `gas.rs`.
 
-use super::FlowError;
+use super::gas::{ATMOSPHERE, USUAL_TEMPERATURE, with_path};
+use super::{FlowError, Gas, GasState};
 
 /// A Newtonian fluid of constant properties.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,7 +20,7 @@ impl Fluid {
     /// Dry air at a temperature (K) and pressure (Pa).
     ///
     /// # Errors
-    /// [`FlowError::Value`] unless 170 K ≤ temperature ≤ 1900 K (Sutherland's range) and the pressure is positive and finite.
+    /// [`FlowError::Value`] unless 170 K ≤ temperature ≤ 1900 K (Sutherland's range) and 0 < pressure ≤ 100 bar.
     ///
     /// ```
     /// let air = carom_track::flow::Fluid::air(293.15, 101_325.0)?;
@@ -33,11 +28,27 @@ impl Fluid {
     /// # Ok::<(), carom_track::flow::FlowError>(())
     /// ```
     pub fn air(temperature: f64, pressure: f64) -> Result<Self, FlowError> {
-        if !(170.0..=1900.0).contains(&temperature) {
+        let [low, high] = Gas::Air.range();
+        if !(low..=high).contains(&temperature) {
             return Err(FlowError::value("air temperature", temperature, "170 K to 1900 K"));
         }
-        FlowError::positive("air pressure", pressure)?;
-        Ok(air(temperature, pressure))
+        let state = GasState { temperature: Some(temperature), pressure: Some(pressure), ..GasState::default() };
+        state.fluid().map_err(|_| FlowError::value("air pressure", pressure, "positive and at most 1e7 Pa"))
+    }
+
+    /// A liquid: no slip at a sphere, however small.
+    ///
+    /// # Errors
+    /// As [`Fluid::check`].
+    pub fn liquid(density: f64, viscosity: f64, temperature: f64) -> Result<Self, FlowError> {
+        let liquid = Self { density, viscosity, temperature, mean_free_path: 0.0 };
+        liquid.check().map(|()| liquid)
+    }
+
+    /// Mean speed of a gas's molecules, from λ = μ/(0.499 ρ c̄), m/s; infinite where there is no mean free path.
+    #[inline]
+    pub fn molecular_speed(&self) -> f64 {
+        self.viscosity / (0.499 * self.density * self.mean_free_path)
     }
 
     /// Kinematic viscosity, m²/s.
@@ -65,16 +76,9 @@ impl Fluid {
 /// Air at 24 °C and one atmosphere.
 impl Default for Fluid {
     fn default() -> Self {
-        air(297.15, 101_325.0)
+        let thermal = Gas::Air.specific_constant() * USUAL_TEMPERATURE;
+        with_path(ATMOSPHERE / thermal, Gas::Air.viscosity(USUAL_TEMPERATURE), USUAL_TEMPERATURE, thermal)
     }
-}
-
-fn air(temperature: f64, pressure: f64) -> Fluid {
-    const GAS_CONSTANT: f64 = 287.05;
-    let density = pressure / (GAS_CONSTANT * temperature);
-    let viscosity = 1.458e-6 * temperature * temperature.sqrt() / (temperature + 110.4);
-    let mean_speed = (8.0 * GAS_CONSTANT * temperature / std::f64::consts::PI).sqrt();
-    Fluid { density, viscosity, temperature, mean_free_path: viscosity / (0.499 * density * mean_speed) }
 }
 
 #[cfg(test)]

@@ -5,6 +5,8 @@
 
 mod channel;
 mod fluid;
+mod gas;
+mod humid;
 mod jet;
 mod piece;
 mod pipe;
@@ -15,6 +17,8 @@ mod table;
 
 pub use channel::Channel;
 pub use fluid::Fluid;
+pub(crate) use gas::mean_free_path;
+pub use gas::{Gas, GasState, StateError};
 pub use jet::SlotJet;
 pub use piece::{Exit, Piece};
 pub use pipe::Pipe;
