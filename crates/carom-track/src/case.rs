@@ -21,6 +21,7 @@ pub use injection::Injected;
 use crate::deposition::{Bins, Region};
 use crate::domain::{AnyDomain, Wall};
 use crate::dynamics::Dynamics;
+use crate::flow::Flow;
 use crate::injection::Start;
 use crate::tables::TableFormat;
 use crate::tracker::{Behavior, Particle, Settings, SettleHeight, Tracker};
@@ -92,7 +93,7 @@ impl Case {
             .injection
             .iter()
             .enumerate()
-            .map(|(i, at)| injection::read(at, i, seed, &fluid, dynamics.forces.slip, library))
+            .map(|(i, at)| injection::read(at, i, seed, &fluid, dynamics.forces.slip, &flow, library))
             .collect::<Result<Vec<_>, _>>()?;
         if injections.is_empty() {
             return Err(LawError::new("the case injects nothing").help("add an [[injection]]"));
@@ -117,7 +118,7 @@ impl Case {
         unused_laws(&read, &laws, library)?;
         let settings = settings(&read, seed, &behaviors)?;
         injected_in_the_fluid(&walls, &injections, &behaviors)?;
-        sampled_starts(&walls, &injections, &behaviors)?;
+        sampled_starts(&walls, &flow, &injections, &behaviors)?;
         // materials come from a library that may change: what they are made of tells, and the text tells the rest
         let fingerprint =
             materials(&read, &laws, library).iter().fold(files.fingerprint(), |f, m| f.with_material(m)).number();
@@ -125,6 +126,7 @@ impl Case {
         let bins = bins(&output)?;
         notes.extend(read.forces.gravity.is_none().then(|| "no gravity: [forces] gives none".to_owned()));
         notes.extend(fluid::notes(read.fluid.as_ref(), &dynamics, &flow, &injections));
+        notes.extend(injections.iter().filter_map(injection::outflow));
         notes.extend(scale::notes(&flow, &walls, &behaviors, &injections));
         Ok(Self {
             title: read.title.unwrap_or_default(),
@@ -253,11 +255,16 @@ fn settings(read: &CaseText, seed: u64, behaviors: &[Behavior]) -> Result<Settin
 }
 
 /// The first spheres of each injection, as they will be: in the fluid, and fit for the laws of the walls.
-fn sampled_starts(walls: &[Wall], injections: &[Injected], behaviors: &[Behavior]) -> Result<(), LawError> {
+fn sampled_starts(
+    walls: &[Wall],
+    flow: &Flow,
+    injections: &[Injected],
+    behaviors: &[Behavior],
+) -> Result<(), LawError> {
     const SAMPLE: u64 = 1000;
     for (index, injected) in injections.iter().enumerate() {
         for i in 0..injected.injection.count().min(SAMPLE) {
-            let start = injected.injection.particle(i, |_, _| [0.0; 3]);
+            let start = injected.injection.particle(i, |_, x| flow.velocity(x));
             for (wall, behavior) in walls.iter().zip(behaviors) {
                 let reach = 0.5 * start.diameter;
                 if wall.shape.distance(start.position) - wall.clearance(reach) < -1e-9 * reach {

@@ -2,7 +2,7 @@
 
 use super::check::{positive, unknown, word, wrong};
 use super::text::{InjectionText, PlaceText, PlacesText, Si, SizeText, SizesText, VelocityText};
-use crate::flow::Fluid;
+use crate::flow::{Flow, Fluid};
 use crate::force::Slip;
 use crate::injection::{
     Amount, By, Diameter, Injection, InjectionError, Plan, Sizes, Source, Start, Window, geometric_diameter,
@@ -34,6 +34,7 @@ pub(super) fn read(
     seed: u64,
     fluid: &Fluid,
     slip: Slip,
+    flow: &Flow,
     library: &Library,
 ) -> Result<Injected, LawError> {
     let text = &at.value;
@@ -53,11 +54,15 @@ pub(super) fn read(
         largest = geometric_diameter(largest, density, slip, fluid.mean_free_path);
     }
     let start = text.start.as_ref().map_or(0.0, |t| t.value.0);
+    let ways = [("uniform", false), ("flux", true)];
+    let by_flux = text.distribution.as_ref().map_or(Ok(false), |d| word(d, "distribution", &ways))?;
     let plan = Plan {
         source: place(&text.position)?,
-        velocity: match text.velocity.value {
-            VelocityText::Given(v) => Start::Velocity(v),
-            VelocityText::Fluid => Start::Fluid,
+        velocity: match text.velocity.as_ref().map(|v| &v.value) {
+            Some(VelocityText::Given(v)) => Start::Velocity(*v),
+            Some(VelocityText::Fluid) => Start::Fluid,
+            None if by_flux => Start::Fluid,
+            None => return Err(wrong(at, "an injection needs velocity").help("a vector, or \"fluid\"")),
         },
         spin: text.spin.as_ref().map_or([0.0; 3], |s| s.value.si()),
         density,
@@ -70,6 +75,11 @@ pub(super) fn read(
         return Err(wrong(start, format!("start is {} s", start.value.0)).help("a run begins at 0 s"));
     }
     let injection = Injection::new(seed, number, plan, fluid).map_err(|e| blame(at, &e).at(at.span.clone()))?;
+    let injection = if by_flux {
+        injection.by_flux(flow).map_err(|e| LawError::new(e.to_string()).at(text.position.span.clone()))?
+    } else {
+        injection
+    };
     Ok(Injected {
         name,
         material: text.material.as_ref().map(|m| m.value.clone()),
@@ -77,6 +87,17 @@ pub(super) fn read(
         largest,
         place: text.position.span.clone(),
     })
+}
+
+/// What to say where part of an inflow's area lets fluid out.
+pub(super) fn outflow(injected: &Injected) -> Option<String> {
+    const WORTH_A_WORD: f64 = 0.001;
+    let share = injected.injection.outflow().filter(|share| *share > WORTH_A_WORD)?;
+    Some(format!(
+        "through part of {} fluid flows out, {:.1} % of what flows in: only the inflow carries spheres",
+        injected.name,
+        100.0 * share
+    ))
 }
 
 /// The key that an injection's error is about.
@@ -98,7 +119,7 @@ fn blame(at: &At<InjectionText>, error: &InjectionError) -> LawError {
     } else if about(&["point", "corner", "box", "disc", "patch", "surface"]) {
         text.position.span.clone()
     } else if about(&["velocity"]) {
-        text.velocity.span.clone()
+        text.velocity.as_ref().and_then(|a| a.span.clone())
     } else if about(&["spin"]) {
         text.spin.as_ref().and_then(|a| a.span.clone())
     } else if about(&["density"]) {

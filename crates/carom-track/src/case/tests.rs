@@ -2,6 +2,7 @@ use super::*;
 
 mod curvature;
 mod fluid;
+mod flux;
 mod stl;
 
 const GOOD: &str = r#"

@@ -73,6 +73,11 @@ impl Channel {
         Ok(Self { shape, friction_velocity, height, mean_speed, reynolds, layers })
     }
 
+    /// Height of the middle, where it is fastest, m.
+    pub(super) fn middle(&self) -> f64 {
+        0.5 * self.height
+    }
+
     /// U h/ν.
     pub fn reynolds(&self) -> f64 {
         self.reynolds

@@ -46,6 +46,11 @@ impl SlotJet {
         Ok(Self { width, speed })
     }
 
+    /// Speed of the jet, nowhere exceeded, m/s.
+    pub(super) fn speed(&self) -> f64 {
+        self.speed
+    }
+
     /// Whether a point is in the jet, its mirror image x → |x| scaled by the width.
     #[inline(always)]
     fn contains(x: f64, y: f64) -> bool {

@@ -4,6 +4,7 @@
 //! wall sees the fluid at rest there.
 
 mod channel;
+mod fastest;
 mod fluid;
 mod gas;
 mod humid;

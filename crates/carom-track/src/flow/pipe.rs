@@ -102,6 +102,16 @@ impl Pipe {
         sub(d, scale(self.axis, dot(d, self.axis)))
     }
 
+    /// m.
+    pub(super) fn distance_from_axis(&self, x: Vec3) -> f64 {
+        norm(self.radial(x))
+    }
+
+    /// Speed at a distance (m) from the axis, m/s: it falls from there to the wall.
+    pub(super) fn speed_at(&self, r: f64) -> f64 {
+        self.speed(Piece::layer(self.layers.of(r)), r).abs()
+    }
+
     /// The piece of a point: one of the layers around the axis, or beyond the wall.
     pub fn piece(&self, x: [f64; 3]) -> Piece {
         Piece::layer(self.layers.of(norm(self.radial(x))))

@@ -65,6 +65,11 @@ impl RoundJet {
         Ok(Self { speed, radius: 0.5 * diameter, thickness: diameter / Self::STRAIN })
     }
 
+    /// Speed of the jet, nowhere exceeded, m/s.
+    pub(super) fn speed(&self) -> f64 {
+        self.speed
+    }
+
     /// The distance δ from the plate below which the jet is turned, and from the axis beyond which it is a wall jet, m.
     pub fn thickness(&self) -> f64 {
         self.thickness

@@ -5,6 +5,7 @@
 //! Two ways to say how much: a **count** of spheres, each for itself (weight 1), with diameters drawn by number; or a
 //! **mass** (or mass flow over a time window) carried by a number of parcels, each standing for `weight` like spheres, with
 //! diameters drawn by mass, so that all parcels carry the same mass and the injected mass is exact.
+//! Positions fill a place evenly, or, [by flux](Injection::by_flux), in proportion to the fluid's velocity into it.
 //! Starts are spread over the time window, one at random in each of as many equal intervals as there are starts.
 //!
 //! ```
@@ -22,6 +23,7 @@
 //! ```
 
 mod aerodynamic;
+mod flux;
 mod size;
 mod source;
 
@@ -29,9 +31,10 @@ pub use aerodynamic::geometric_diameter;
 pub use size::{By, Sizes};
 pub use source::Source;
 
-use crate::flow::Fluid;
+use crate::flow::{Flow, Fluid};
 use crate::force::{Slip, Sphere};
 use crate::random::{Purpose, Stream};
+use flux::Inflow;
 use size::Sampler;
 use source::Place;
 
@@ -146,6 +149,7 @@ pub struct Injection {
     index: u32,
     plan: Plan,
     place: Place,
+    inflow: Option<Inflow>,
     sampler: Sampler,
     fluid: Fluid,
     count: u64,
@@ -191,7 +195,21 @@ impl Injection {
         let by = if parcel_mass.is_some() { By::Mass } else { By::Number };
         let sampler = Sampler::new(&plan.sizes, by)?;
         let place = Place::new(&plan.source)?;
-        Ok(Self { seed, index, plan, place, sampler, fluid: *fluid, count, parcel_mass })
+        Ok(Self { seed, index, plan, place, inflow: None, sampler, fluid: *fluid, count, parcel_mass })
+    }
+
+    /// The same, with positions in proportion to the velocity with which a flow enters the place: of a disc along its normal, of
+    /// a box through its faces, of a patch or a surface the way that more of it goes. Weights stay equal.
+    ///
+    /// # Errors
+    /// [`InjectionError::Shape`] for a point, and where nothing flows in.
+    pub fn by_flux(self, flow: &Flow) -> Result<Self, InjectionError> {
+        Inflow::new(&self.plan.source, flow).map(|inflow| Self { inflow: Some(inflow), ..self })
+    }
+
+    /// Of an injection by flux, what flows out of its place over what flows in, about; only the inflow carries spheres.
+    pub fn outflow(&self) -> Option<f64> {
+        self.inflow.as_ref().map(Inflow::outflow)
     }
 
     /// How many particles it makes.
@@ -210,19 +228,22 @@ impl Injection {
     }
 
     /// The start of particle `i`, 0 ≤ `i` < [`Injection::count`];
-    /// `fluid_velocity` is asked at its time and place, only for [`Start::Fluid`].
-    pub fn particle(&self, i: u64, fluid_velocity: impl FnOnce(f64, [f64; 3]) -> [f64; 3]) -> Injected {
+    /// `fluid_velocity` is asked at its time and place, for [`Start::Fluid`], and wherever an injection by flux tries to start.
+    pub fn particle(&self, i: u64, fluid_velocity: impl Fn(f64, [f64; 3]) -> [f64; 3]) -> Injected {
         let mut draws = Stream::new(self.seed, i, Purpose::Injection, self.index);
         let size = self.sampler.quantile(draws.open_uniform());
         let share = (i as f64 + draws.uniform()) / self.count as f64;
-        let position = self.place.point(&mut draws);
         let Window { start, stop } = self.plan.window;
+        let time = start + (stop - start) * share;
+        let position = match &self.inflow {
+            Some(inflow) => inflow.point(&mut draws, |x| fluid_velocity(time, x)),
+            None => self.place.point(&mut draws),
+        };
         let density = self.plan.density;
         let diameter = match self.plan.diameter {
             Diameter::Geometric => size,
             Diameter::Aerodynamic(slip) => geometric_diameter(size, density, slip, self.fluid.mean_free_path),
         };
-        let time = start + (stop - start) * share;
         let velocity = match self.plan.velocity {
             Start::Velocity(v) => v,
             Start::Fluid => fluid_velocity(time, position),

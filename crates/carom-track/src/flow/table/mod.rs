@@ -19,6 +19,7 @@ mod arrays;
 mod columns;
 mod csv;
 mod error;
+mod fastest;
 mod holes;
 mod vtk;
 mod xml;
