@@ -78,7 +78,7 @@ mod tests {
     #[test]
     fn steam_has_its_published_values() {
         // IAPWS-IF97, region 4: 3.53658941 kPa at 300 K; IAPWS-95 at 273.16 K: 611.655 Pa
-        assert!((saturation(300.0) / 3536.589_41 - 1.0).abs() < 1e-4);
+        assert!((saturation(300.0) / 3_536.589_41 - 1.0).abs() < 1e-4);
         assert!((saturation(273.16) / 611.655 - 1.0).abs() < 1e-4);
         // CoolProp 8.0, IAPWS's correlation at low density
         for (t, mu) in [(300.0, 9.768_413e-6), (350.0, 1.148_616e-5), (373.0, 1.233_143e-5)] {
