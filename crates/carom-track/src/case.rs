@@ -87,8 +87,9 @@ impl Case {
         let files = Files::new(name, text);
         let seed = read.seed.map_or(1, |s| s.0);
         let (fluid, liquid) = fluid::fluid(read.fluid.as_ref())?;
+        let gradient = read.fluid.as_ref().and_then(|f| f.value.temperature_gradient.as_ref());
         let flow = flow::flow(read.flow.as_ref(), &fluid, &files)?;
-        let dynamics = flow::dynamics(&read.forces, fluid, liquid)?;
+        let dynamics = flow::dynamics(&read.forces, (fluid, liquid), gradient)?;
         let injections = read
             .injection
             .iter()
@@ -122,6 +123,7 @@ impl Case {
         // materials come from a library that may change: what they are made of tells, and the text tells the rest
         let fingerprint =
             materials(&read, &laws, library).iter().fold(files.fingerprint(), |f, m| f.with_material(m)).number();
+        let open = behaviors.iter().map(|b| matches!(b, Behavior::Escape)).collect();
         let output = read.output;
         let bins = bins(&output)?;
         notes.extend(read.forces.gravity.is_none().then(|| "no gravity: [forces] gives none".to_owned()));
@@ -131,7 +133,7 @@ impl Case {
         Ok(Self {
             title: read.title.unwrap_or_default(),
             name: name.to_owned(),
-            domain: AnyDomain::new(flow, walls),
+            domain: AnyDomain::new(flow, walls).with_openings(open),
             dynamics,
             behaviors,
             injections,

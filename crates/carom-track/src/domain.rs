@@ -242,6 +242,13 @@ impl AnyDomain {
         Analytic::new(flow, walls).into()
     }
 
+    /// The same, some of its walls openings: spheres meet them, the fluid does not.
+    pub fn with_openings(self, open: Vec<bool>) -> Self {
+        match self {
+            Self::Analytic(d) => Analytic { walls: d.walls.with_openings(open), ..d }.into(),
+        }
+    }
+
     /// The walls, in the order of their indices.
     pub fn walls(&self) -> &[Wall] {
         self.geometry().list()

@@ -256,6 +256,9 @@ impl<D: Domain> Work for AllForces<'_, D> {
             let gust = walk.fluctuation(eddy.deviates, &local, fluid.kinematic_viscosity());
             local.velocity = add(local.velocity, gust);
         }
+        if dynamics.forces.wall_drag.is_some() {
+            local.wall = domain.walls().nearest(x);
+        }
         dynamics.forces.rates(fluid, sphere, &local, v, spin)
     }
 }

@@ -100,6 +100,10 @@ quantities! {
     KinematicViscosity, "kinematic viscosity", [2, 0, -1, 0], "m2/s", "1.5e-5 m2/s";
     /// A temperature, K (degC and degF are converted).
     Temperature, "temperature", [0, 0, 0, 1], "K", "24 degC";
+    /// A temperature gradient, K/m.
+    TemperatureGradient, "temperature gradient", [-1, 0, 0, 1], "K/m", "1e4 K/m";
+    /// A thermal conductivity, W/(m K).
+    ThermalConductivity, "thermal conductivity", [1, 1, -3, -1], "W/m/K", "0.2 W/m/K";
     /// An angle, rad.
     Angle, "angle", [0, 0, 0, 0], "rad", "30 deg";
     /// An angular velocity, rad/s.

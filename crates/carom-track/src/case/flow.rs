@@ -2,12 +2,13 @@
 
 use super::check::{needed, placed, unknown, word, wrong};
 use super::files::Files;
-use super::text::{FlowText, ForcesText, Si};
+use super::text::{FlowText, ForcesText, Si, WallDragText};
 use crate::dynamics::Dynamics;
 use crate::flow::{Channel, Flow, Fluid, Named, Pipe, Profile, RoundJet, SlotJet, Stagnation, Symmetry, Table};
-use crate::force::{Drag, Forces, Life, NearWall, RandomWalk, Slip};
+use crate::force::{Drag, Forces, Life, NearWall, RandomWalk, Slip, Thermophoresis, WallDrag};
 use carom::LawError;
 use carom::spec::At;
+use carom::units::TemperatureGradient;
 use carom_table::quoted;
 
 const KINDS: [&str; 8] = ["still", "uniform", "channel", "pipe", "stagnation", "slot-jet", "round-jet", "table"];
@@ -118,7 +119,11 @@ fn refuse_others(text: &At<FlowText>, kind: &str) -> Result<(), LawError> {
 }
 
 /// The forces; without the table, Schiller–Naumann drag, Davies' slip in a gas and no gravity.
-pub(super) fn dynamics(text: &ForcesText, fluid: Fluid, liquid: bool) -> Result<Dynamics, LawError> {
+pub(super) fn dynamics(
+    text: &ForcesText,
+    (fluid, liquid): (Fluid, bool),
+    gradient: Option<&At<[TemperatureGradient; 3]>>,
+) -> Result<Dynamics, LawError> {
     const DRAGS: [(&str, Drag); 4] = [
         ("none", Drag::None),
         ("stokes", Drag::Stokes),
@@ -143,12 +148,60 @@ pub(super) fn dynamics(text: &ForcesText, fluid: Fluid, liquid: bool) -> Result<
         rotational_drag: text.rotational_drag.unwrap_or(false),
         pressure_gradient: text.pressure_gradient.unwrap_or(false),
         added_mass: text.added_mass.unwrap_or(false),
+        thermophoresis: thermophoresis(text, liquid, gradient)?,
+        wall_drag: wall_drag(text, drag)?,
     };
     let brownian = text.brownian.as_ref().is_some_and(|b| b.value);
     if let Some(b) = text.brownian.as_ref().filter(|_| brownian && drag == Drag::None) {
         return Err(wrong(b, "Brownian motion without drag").help("the molecules that kick also drag: give a drag law"));
     }
     Ok(Dynamics { fluid, forces, random_walk: random_walk(text)?, brownian })
+}
+
+fn thermophoresis(
+    text: &ForcesText,
+    liquid: bool,
+    gradient: Option<&At<[TemperatureGradient; 3]>>,
+) -> Result<Option<Thermophoresis>, LawError> {
+    let (text, gradient) = match (&text.thermophoresis, gradient) {
+        (Some(text), Some(gradient)) => (text, gradient),
+        (None, None) => return Ok(None),
+        (Some(text), None) => {
+            return Err(wrong(text, "thermophoresis without a temperature gradient")
+                .help("give temperature_gradient = [\"0 K/m\", \"1e4 K/m\", \"0 K/m\"] in [fluid]"));
+        }
+        (None, Some(gradient)) => {
+            return Err(wrong(gradient, "temperature_gradient acts on nothing")
+                .help("give thermophoresis = { thermal_conductivity = \"0.2 W/m/K\" } in [forces]"));
+        }
+    };
+    if liquid {
+        return Err(wrong(text, "thermophoresis in a liquid").help("its law is known of gases alone"));
+    }
+    let conductivity = &text.value.thermal_conductivity;
+    let conductivity = super::check::positive(conductivity, "thermal_conductivity", conductivity.value.0)?;
+    let si = gradient.value.si();
+    if !si.iter().all(|c| c.is_finite()) {
+        return Err(wrong(gradient, format!("temperature_gradient is {si:?} K/m")).help("it must be finite"));
+    }
+    Ok(Some(Thermophoresis { conductivity, gradient: si }))
+}
+
+fn wall_drag(text: &ForcesText, drag: Drag) -> Result<Option<WallDrag>, LawError> {
+    let Some(at) = &text.wall_drag else { return Ok(None) };
+    let least_gap = match &at.value {
+        WallDragText::Switch(false) => return Ok(None),
+        WallDragText::Switch(true) => None,
+        WallDragText::Gap(text) => Some(super::check::positive(at, "least_gap", text.least_gap.0)?),
+    };
+    if drag == Drag::None {
+        return Err(wrong(at, "wall_drag without drag").help("it multiplies the drag: give a drag law"));
+    }
+    if text.brownian.as_ref().is_some_and(|b| b.value) {
+        return Err(wrong(at, "wall_drag with brownian")
+            .help("the kicks know nothing of walls, so the two would not balance: switch one of them off"));
+    }
+    Ok(Some(WallDrag { least_gap }))
 }
 
 pub(super) const SLIPS: [(&str, Slip); 3] =

@@ -3,6 +3,7 @@ use super::*;
 mod curvature;
 mod fluid;
 mod flux;
+mod forces;
 mod stl;
 
 const GOOD: &str = r#"

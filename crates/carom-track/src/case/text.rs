@@ -7,7 +7,7 @@ use carom::material::MaterialRef;
 use carom::spec::{At, CurveSpec};
 use carom::units::{
     Acceleration, AngularVelocity, Density, Frequency, Length, Mass, MassFlow, Number, Pressure, Speed, Temperature,
-    Time, Viscosity,
+    TemperatureGradient, ThermalConductivity, Time, Viscosity,
 };
 
 /// A case file.
@@ -44,6 +44,7 @@ pub(super) struct FluidText {
     pub gas: Option<At<String>>,
     pub liquid: Option<At<bool>>,
     pub mean_free_path: Option<At<Length>>,
+    pub temperature_gradient: Option<At<[TemperatureGradient; 3]>>,
 }
 
 #[derive(Debug, serde::Deserialize)]
@@ -79,8 +80,30 @@ pub(super) struct ForcesText {
     pub rotational_drag: Option<bool>,
     pub pressure_gradient: Option<bool>,
     pub added_mass: Option<bool>,
+    pub thermophoresis: Option<At<ThermophoresisText>>,
+    pub wall_drag: Option<At<WallDragText>>,
     pub brownian: Option<At<bool>>,
     pub random_walk: Option<At<RandomWalkText>>,
+}
+
+#[derive(Debug, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ThermophoresisText {
+    pub thermal_conductivity: At<ThermalConductivity>,
+}
+
+/// `true` or `false`, or a table.
+#[derive(Debug, serde::Deserialize)]
+#[serde(untagged, expecting = "true, false or { least_gap = \"10 nm\" } is wanted")]
+pub(super) enum WallDragText {
+    Switch(bool),
+    Gap(LeastGapText),
+}
+
+#[derive(Debug, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct LeastGapText {
+    pub least_gap: Length,
 }
 
 #[derive(Debug, serde::Deserialize)]
@@ -284,7 +307,7 @@ macro_rules! si {
         }
     )*};
 }
-si!(Length, Speed, Acceleration, AngularVelocity);
+si!(Length, Speed, Acceleration, AngularVelocity, TemperatureGradient);
 
 mod forms {
     //! Values that may be written in more than one form: a visitor each, so that the errors inside keep their words.

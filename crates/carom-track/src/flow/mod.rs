@@ -50,6 +50,8 @@ pub struct Local {
     pub wall_normal: [f64; 3],
     /// Friction velocity of that wall, m/s; 0 where the flow knows none.
     pub friction_velocity: f64,
+    /// The nearest wall that is met, where a force asks for it.
+    pub wall: Option<crate::force::wall_drag::Nearest>,
 }
 
 impl Local {
@@ -64,6 +66,7 @@ impl Local {
             wall_distance: f64::INFINITY,
             wall_normal: [0.0; 3],
             friction_velocity: 0.0,
+            wall: None,
         }
     }
 

@@ -13,11 +13,14 @@ pub mod random_walk;
 pub mod rotational_drag;
 pub mod saffman;
 pub mod slip;
+pub mod thermophoresis;
+pub mod wall_drag;
 
 pub use brownian::brownian_amplitude;
 pub use drag::{Drag, relaxation_time, reynolds};
 pub use random_walk::{Eddy, Life, NearWall, RandomWalk, Surroundings};
 pub use slip::Slip;
+pub use wall_drag::WallDrag;
 
 use crate::flow::{Fluid, Local};
 use crate::vector::{add, norm, scale, sub};
@@ -60,6 +63,19 @@ pub struct Forces {
     pub pressure_gradient: bool,
     /// Inertia of the fluid that moves with the sphere.
     pub added_mass: bool,
+    /// Drift from warm to cold in a gas.
+    pub thermophoresis: Option<Thermophoresis>,
+    /// Drag that grows near walls.
+    pub wall_drag: Option<WallDrag>,
+}
+
+/// What thermophoresis needs besides the fluid.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Thermophoresis {
+    /// Thermal conductivity of the spheres, W/(m K).
+    pub conductivity: f64,
+    /// The gas's temperature gradient, K/m, the same everywhere.
+    pub gradient: [f64; 3],
 }
 
 /// Schiller–Naumann drag in the earth's gravity along −y, with buoyancy; nothing else.
@@ -75,6 +91,8 @@ impl Default for Forces {
             rotational_drag: false,
             pressure_gradient: false,
             added_mass: false,
+            thermophoresis: None,
+            wall_drag: None,
         }
     }
 }
@@ -93,7 +111,13 @@ impl Forces {
     /// spin neither changes nor matters in flight.
     #[inline(always)]
     pub fn is_plain(&self) -> bool {
-        !(self.saffman || self.magnus || self.rotational_drag || self.pressure_gradient || self.added_mass)
+        !(self.saffman
+            || self.magnus
+            || self.rotational_drag
+            || self.pressure_gradient
+            || self.added_mass
+            || self.thermophoresis.is_some()
+            || self.wall_drag.is_some())
     }
 
     /// dv/dt and dω/dt of a sphere at velocity `v` (m/s) and spin (rad/s) where the fluid is as `local` says.
@@ -108,7 +132,17 @@ impl Forces {
         let tau = relaxation_time(fluid, sphere, slip);
         let ratio = fluid.density / sphere.density;
         let mut a = gravity::acceleration(self.gravity, if self.buoyancy { ratio } else { 0.0 });
-        a = add(a, scale(relative, self.drag.factor(reynolds) / tau));
+        let rate = self.drag.factor(reynolds) / tau;
+        a = add(
+            a,
+            match (&self.wall_drag, &local.wall) {
+                (Some(drag), Some(near)) => drag.acceleration(fluid, sphere, near, rate, local.velocity, v),
+                _ => scale(relative, rate),
+            },
+        );
+        if let Some(t) = &self.thermophoresis {
+            a = add(a, thermophoresis::acceleration(fluid, sphere, t.conductivity, fluid.temperature, t.gradient));
+        }
         if self.saffman {
             a = add(a, saffman::acceleration(fluid, sphere, relative, local.vorticity()));
         }

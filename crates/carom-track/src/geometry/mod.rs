@@ -74,6 +74,24 @@ impl Shape {
         }
     }
 
+    /// Distance (m) and unit normal, into the fluid, of its nearest point; none where no normal is known (on a mesh itself).
+    #[inline(always)]
+    fn nearest(&self, x: Vec3) -> Option<(f64, Vec3)> {
+        match self {
+            Self::Plane(p) => Some((p.distance(x), p.normal)),
+            Self::Cylinder(c) => Some((c.distance(x), c.normal(x))).filter(|(_, n)| n[0].is_finite()),
+            Self::Room(r) => {
+                r.faces().iter().map(|f| (f.distance(x), f.normal)).reduce(|a, b| if b.0 < a.0 { b } else { a })
+            }
+            Self::Mesh(m) => {
+                let (_, foot) = m.nearest(x)?;
+                let away = crate::vector::sub(x, foot);
+                let distance = crate::vector::norm(away);
+                (distance > 0.0).then(|| (distance, crate::vector::scale(away, 1.0 / distance)))
+            }
+        }
+    }
+
     /// The box around it.
     pub fn bounds(&self) -> Bounds {
         match self {

@@ -6,6 +6,7 @@
 #![allow(clippy::needless_range_loop, reason = "one index runs through several arrays of lanes or components")]
 
 use super::{Ahead, Bounds, Face, Meeting, Path, Shape};
+use crate::force::wall_drag::Nearest;
 use crate::integrate::{Lanes, Lanes3};
 use crate::vector::Vec3;
 
@@ -126,6 +127,8 @@ pub struct Walls {
     faces: Vec<Face>,
     /// The others' indices.
     curved: Vec<usize>,
+    /// Of each, whether it is an opening: met, but nothing solid.
+    open: Vec<bool>,
 }
 
 /// The distance that counts as touching: far below anything measured, above the rounding of positions.
@@ -146,7 +149,26 @@ impl Walls {
                 Shape::Cylinder(_) | Shape::Mesh(_) => curved.push(index),
             }
         }
-        Self { list, faces, curved }
+        let open = vec![false; list.len()];
+        Self { list, faces, curved, open }
+    }
+
+    /// The same, some of them openings: spheres meet them, the fluid does not.
+    pub fn with_openings(self, open: Vec<bool>) -> Self {
+        Self { open, ..self }
+    }
+
+    /// The solid wall nearest to a point.
+    #[inline(always)]
+    pub fn nearest(&self, x: Vec3) -> Option<Nearest> {
+        let mut nearest: Option<Nearest> = None;
+        for (wall, _) in self.list.iter().zip(&self.open).filter(|(_, open)| !**open) {
+            let found = wall.shape.nearest(x);
+            if let Some((distance, normal)) = found.filter(|f| nearest.is_none_or(|n| f.0 < n.distance)) {
+                nearest = Some(Nearest { distance, normal, velocity: wall.velocity });
+            }
+        }
+        nearest
     }
 
     /// The walls, in the order of their indices.
