@@ -141,7 +141,7 @@ mod tests {
     #[test]
     fn normal_motion_is_brenners() {
         // high precision: 30 digits
-        for (gap, want) in [(1e-3, 1002.353_326_869_7), (0.1, 11.459_157_203_4), (10.0, 1.113_503_233_9)] {
+        for (gap, want) in [(1e-3, 1_002.353_326_869_7), (0.1, 11.459_157_203_4), (10.0, 1.113_503_233_9)] {
             assert!((brenner(gap) / want - 1.0).abs() < 1e-6, "{gap} {}", brenner(gap));
         }
         for i in 0..=60 {

@@ -20,7 +20,7 @@ pub(super) enum Part {
 
 impl Mesh {
     /// The nearest point of all, and its face.
-    pub(super) fn nearest(&self, x: Vec3) -> Option<(u32, Vec3)> {
+    pub(in crate::geometry) fn nearest(&self, x: Vec3) -> Option<(u32, Vec3)> {
         let (mut best, mut found) = (f64::INFINITY, None);
         let mut stack = ArrayVec::<(f64, u32), STACK>::new();
         stack.push((0.0, 0));
