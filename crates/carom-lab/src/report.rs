@@ -232,7 +232,7 @@ fn wind_tunnel(report: &mut Report, v: &Validation, figure: &str) -> Result<(), 
     if let (true, [real, elastic]) = (figure == "12", &ways[..]) {
         report.paragraph(&format!(
             "With e = 1 it ends {:.2} times as far here where the paper says about 2. What the paper prints does not decide it: the ratio \
-             depends on height, starting point and C_R, which it does not give (2.5 times at 20 mm with C_R 1, twice at 13.0 and 20.7 mm: the \
+             depends on height, starting point and C_R, which it does not give (2.6 times at 20 mm with C_R 1, twice at 13.05 and 20.75 mm: the \
              example two-walls).",
             elastic.end / real.end
         ));
