@@ -106,7 +106,11 @@ fn forces_that_have_nothing_to_act_on_are_refused() {
     refused("density = \"1.19", "temperature_gradient = [0, 1e4, 0]\ndensity = \"1.19", &["acts on nothing"]);
     refused(drag, &format!("{drag}\nbrownian = true\nwall_drag = true"), &["wall_drag with brownian"]);
     refused(drag, "drag = \"none\"\nwall_drag = true", &["wall_drag without drag"]);
-    refused(drag, &format!("{drag}\nwall_drag = {{ least_gap = \"-1 nm\" }}"), &["least_gap is -0.000000001", "positive"]);
+    refused(
+        drag,
+        &format!("{drag}\nwall_drag = {{ least_gap = \"-1 nm\" }}"),
+        &["least_gap is -0.000000001", "positive"],
+    );
     refused(drag, &format!("{drag}\nwall_drag = 3"), &["true, false or"]);
     let thermo = format!("{drag}\nthermophoresis = {{ thermal_conductivity = 0.2 }}");
     let liquid = "density = 998\nviscosity = 1e-3\nliquid = true\ntemperature_gradient = [0, 1, 0]";
