@@ -50,6 +50,11 @@ pub trait Domain: Sync {
         f64::INFINITY
     }
 
+    /// How far a step from `x` may spread at random, m: the least width of the piece, and what a step may span there.
+    fn room(&self, _here: Self::Here, _x: Vec3) -> f64 {
+        f64::INFINITY
+    }
+
     /// What lies ahead of `W` paths (starts and control points 1 to 5 relative to them), as far as a look side by side tells.
     #[inline(always)]
     fn look<const W: usize>(
@@ -118,7 +123,7 @@ impl Analytic {
 }
 
 /// Of the time to the end of a piece, what a step tries: the end itself is then well within.
-const BEYOND: f64 = 1.05;
+pub(crate) const BEYOND: f64 = 1.05;
 
 /// Of what a step may span, what it tries.
 const WITHIN: f64 = 0.9;
@@ -161,6 +166,19 @@ impl Domain for Analytic {
         let end = BEYOND * self.flow.soonest(here, x, v);
         let reach = self.flow.reach(here, x);
         if reach < f64::INFINITY { end.min(WITHIN * reach / norm(v)) } else { end }
+    }
+
+    fn room(&self, here: Piece, x: Vec3) -> f64 {
+        if self.flow.is_one_piece() {
+            return f64::INFINITY;
+        }
+        // at unit speed a time is a length
+        let way = |c: usize, speed: f64| {
+            let mut v = [0.0; 3];
+            v[c] = speed;
+            self.flow.soonest(here, x, v)
+        };
+        (0..3).fold(self.flow.reach(here, x), |least, c| least.min(way(c, 1.0) + way(c, -1.0)))
     }
 
     #[inline(always)]

@@ -42,8 +42,6 @@ pub struct Bodies<const W: usize> {
     pub weight: Lanes3<W>,
     /// The eddy each is in.
     pub eddy: [Option<Eddy>; W],
-    /// Acceleration by the molecules' present kick, m/s².
-    pub kick: Lanes3<W>,
 }
 
 impl<const W: usize> Bodies<W> {
@@ -55,7 +53,6 @@ impl<const W: usize> Bodies<W> {
         reynolds: [0.0; W],
         weight: [[0.0; W]; 3],
         eddy: [None; W],
-        kick: [[0.0; W]; 3],
     };
 
     /// One of the spheres alone.
@@ -68,7 +65,6 @@ impl<const W: usize> Bodies<W> {
             reynolds: [self.reynolds[l]],
             weight: [[self.weight[0][l]], [self.weight[1][l]], [self.weight[2][l]]],
             eddy: [self.eddy[l]],
-            kick: [[self.kick[0][l]], [self.kick[1][l]], [self.kick[2][l]]],
         }
     }
 }
@@ -84,7 +80,7 @@ impl Dynamics {
     /// Only drag, gravity and buoyancy.
     #[inline(always)]
     pub(crate) fn is_plain(&self) -> bool {
-        self.forces.is_plain() && self.random_walk.is_none() && !self.brownian
+        self.forces.is_plain() && self.random_walk.is_none()
     }
 
     /// Whether spin changes in flight.
@@ -120,7 +116,6 @@ impl Dynamics {
         let left = if self.forces.buoyancy { 1.0 - self.fluid.density / sphere.density } else { 1.0 };
         for c in 0..3 {
             bodies.weight[c][l] = self.forces.gravity[c] * left;
-            bodies.kick[c][l] = 0.0;
         }
         bodies.eddy[l] = None;
     }
@@ -142,7 +137,7 @@ impl Dynamics {
             for l in 0..W {
                 let r = self.full_rates(domain, here[l], time[l], bodies, m, l);
                 for c in 0..3 {
-                    out.a[c][l] = r.acceleration[c] + bodies.kick[c][l];
+                    out.a[c][l] = r.acceleration[c];
                     out.alpha[c][l] = r.spin[c];
                 }
             }

@@ -7,6 +7,7 @@ mod ahead;
 mod chance;
 mod contact;
 mod crew;
+mod diffusion;
 mod lane;
 mod meeting;
 mod removal;

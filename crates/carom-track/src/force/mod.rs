@@ -16,7 +16,6 @@ pub mod slip;
 pub mod thermophoresis;
 pub mod wall_drag;
 
-pub use brownian::brownian_amplitude;
 pub use drag::{Drag, relaxation_time, reynolds};
 pub use random_walk::{Eddy, Life, NearWall, RandomWalk, Surroundings};
 pub use slip::Slip;

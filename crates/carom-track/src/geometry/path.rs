@@ -20,6 +20,37 @@ impl Path {
         Self { start, points: [0.2, 0.4, 0.6, 0.8, 1.0].map(|s| change.map(|c| s * c)) }
     }
 
+    /// How the position changes with θ, m: over a step of length h the velocity times h.
+    pub fn slope(&self, theta: f64) -> Vec3 {
+        let p = &self.points;
+        [0, 1, 2].map(|c| {
+            let mut d = [p[0][c], p[1][c] - p[0][c], p[2][c] - p[1][c], p[3][c] - p[2][c], p[4][c] - p[3][c]];
+            for top in (1..5).rev() {
+                for i in 0..top {
+                    d[i] += theta * (d[i + 1] - d[i]);
+                }
+            }
+            5.0 * d[0]
+        })
+    }
+
+    /// The part of the path up to θ, as a path (de Casteljau).
+    #[must_use]
+    pub fn until(&self, theta: f64) -> Self {
+        let mut points = self.points;
+        for c in 0..3 {
+            let p = &self.points;
+            let mut row = [0.0, p[0][c], p[1][c], p[2][c], p[3][c], p[4][c]];
+            for top in (1..6).rev() {
+                for i in 0..top {
+                    row[i] += theta * (row[i + 1] - row[i]);
+                }
+                points[5 - top][c] = row[0];
+            }
+        }
+        Self { points, ..*self }
+    }
+
     /// Position at θ, m.
     #[inline(always)]
     pub fn at(&self, theta: f64) -> Vec3 {
@@ -60,4 +91,22 @@ pub fn evaluate<const N: usize>(points: &[Vec3; N], theta: f64) -> Vec3 {
         *out = p[0];
     }
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::vector::{norm, scale, sub};
+
+    #[test]
+    fn a_part_of_a_path_is_the_path_and_its_slope_the_quotient_of_differences() {
+        let points = [[1.0, 0.0, 2.0], [0.5, 3.0, 1.0], [-1.0, 2.0, 0.0], [2.0, 2.0, 5.0], [1.0, -1.0, 3.0]];
+        let path = Path { start: [5.0, 6.0, 7.0], points };
+        let part = path.until(0.3);
+        for t in [0.0, 0.2, 0.7, 1.0] {
+            assert!(norm(sub(part.at(t), path.at(0.3 * t))) < 1e-14, "{t}");
+            let quotient = scale(sub(path.at(t + 1e-6), path.at(t - 1e-6)), 0.5e6);
+            assert!(norm(sub(path.slope(t), quotient)) < 1e-7, "{t}");
+        }
+    }
 }

@@ -1,19 +1,19 @@
-//! What changes at random in flight: the eddy a sphere is in, and the molecules' present kick.
+//! What changes at random in flight: the eddy a sphere is in.
 //!
-//! A kick is constant for a while, and the tracker steps exactly to its end. An eddy drifts and ages with the place: half
+//! An eddy drifts and ages with the place: half
 //! of a step's drift is added before the step, with the place it starts from, and the whole of it, with both ends, after.
 
 use super::Walk;
 use super::crew::{Crew, motion_of};
 use crate::domain::Domain;
 use crate::flow::Local;
-use crate::force::{Eddy, RandomWalk, Surroundings, brownian_amplitude};
+use crate::force::{Eddy, RandomWalk, Surroundings};
 use crate::random::{Purpose, Stream};
 use crate::vector::{Vec3, add, norm, sub};
 use carom::instructions::{Work, run_scalar};
 use carom::math::Fma;
 
-/// The present eddy and kick and how many there were.
+/// The present eddy and how many there were.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Chance {
     /// The eddy at the lane's time.
@@ -24,10 +24,7 @@ pub(super) struct Chance {
     crossed: f64,
     /// When the eddy must be looked at again, s.
     look: f64,
-    /// When the kick ends, s.
-    kick_end: f64,
     eddies: u32,
-    kicks: u32,
 }
 
 impl Chance {
@@ -37,9 +34,7 @@ impl Chance {
         place: Surroundings::CALM,
         crossed: f64::NEG_INFINITY,
         look: f64::NEG_INFINITY,
-        kick_end: f64::NEG_INFINITY,
         eddies: 0,
-        kicks: 0,
     };
 
     /// The eddy in the middle of a step.
@@ -50,7 +45,7 @@ impl Chance {
     /// The next change, s.
     #[inline(always)]
     pub fn next(&self) -> f64 {
-        self.look.min(self.kick_end)
+        self.look
     }
 }
 
@@ -79,10 +74,6 @@ impl<D: Domain> Walk<'_, D> {
         match &self.dynamics.random_walk {
             Some(walk) => changed = self.renew_eddy(walk, crew, l, step),
             None => crew.lanes[l].chance.look = f64::INFINITY,
-        }
-        if crew.lanes[l].chance.kick_end <= crew.time[l] {
-            self.renew_kick(crew, l);
-            changed = true;
         }
         crew.stale[l] |= changed;
         let (time, next) = (crew.time[l], crew.lanes[l].chance.next());
@@ -123,25 +114,6 @@ impl<D: Domain> Walk<'_, D> {
             if walk.drift { chance.eddy.longest_step(&chance.place) } else { chance.eddy.rest(&chance.place) };
         chance.look = chance.crossed.min(time + longest);
         over
-    }
-
-    fn renew_kick<const W: usize>(&self, crew: &mut Crew<W, D::Here>, l: usize) {
-        let (time, number) = (crew.time[l], crew.lanes[l].particle.number);
-        let chance = &mut crew.lanes[l].chance;
-        if !self.dynamics.brownian {
-            chance.kick_end = f64::INFINITY;
-            return;
-        }
-        let sphere = &crew.bodies.sphere[l];
-        // constant over one relaxation time: displacements then spread as Einstein's diffusivity says
-        let interval = self.dynamics.relaxation_time(sphere);
-        let size = brownian_amplitude(&self.dynamics.fluid, sphere, self.dynamics.slip(sphere), interval);
-        let mut draws = Stream::new(self.settings.seed, number, Purpose::Brownian, chance.kicks);
-        chance.kicks = chance.kicks.wrapping_add(1);
-        for c in 0..3 {
-            crew.bodies.kick[c][l] = size * draws.normal();
-        }
-        chance.kick_end = time + interval;
     }
 }
 

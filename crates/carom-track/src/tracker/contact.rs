@@ -107,7 +107,7 @@ impl<'a, D: Domain> Contact<'a, D> {
         normal: Vec3,
         steps: u64,
     ) -> Self {
-        (body.eddy, body.kick) = ([None], [[0.0]; 3]);
+        body.eddy = [None];
         let radius = body.radius[0];
         let height = walk.settings.settle_height.of(radius).max(LOWEST * radius);
         let next = 1e-3;
@@ -136,7 +136,7 @@ impl<'a, D: Domain> Contact<'a, D> {
 
     /// With chance pressing it as `body` says, until a time.
     pub fn pressed_by_chance(mut self, body: &Bodies<1>, until: f64) -> Self {
-        (self.body.eddy, self.body.kick) = (body.eddy, body.kick);
+        self.body.eddy = body.eddy;
         (self.until, self.chance_presses) = (until, true);
         self
     }

@@ -4,6 +4,7 @@ use super::Particle;
 use super::chance::Chance;
 use super::crew::Crew;
 use super::crew::column;
+use super::diffusion::Diffusion;
 use crate::geometry::evaluate;
 use crate::integrate::Lanes3;
 use crate::record::Sink;
@@ -27,6 +28,8 @@ pub(super) struct Lane {
     pub strayed: bool,
     /// What changes at random.
     pub chance: Chance,
+    /// How it diffuses.
+    pub diffusion: Diffusion,
 }
 
 impl Lane {
@@ -47,7 +50,17 @@ impl Lane {
     );
 
     pub const fn new(particle: Particle, trace: bool) -> Self {
-        Self { particle, impacts: 0, standing: 0, edges: 0, fitted: false, trace, strayed: false, chance: Chance::NONE }
+        Self {
+            particle,
+            impacts: 0,
+            standing: 0,
+            edges: 0,
+            fitted: false,
+            trace,
+            strayed: false,
+            chance: Chance::NONE,
+            diffusion: Diffusion::NONE,
+        }
     }
 
     /// Nothing about it needs a look when a step of it meets no wall.
@@ -74,7 +87,7 @@ const MOST_POINTS: f64 = 64.0;
 /// line needs: no chord further from the curve than a thousandth of the step's length.
 pub(super) fn trace<const W: usize, H: Copy>(crew: &Crew<W, H>, l: usize, theta: f64, sink: &mut dyn Sink) {
     let lane = &crew.lanes[l];
-    let (x, _, spin) = super::crew::motion_of(&crew.motion, l);
+    let (x, v, spin) = super::crew::motion_of(&crew.motion, l);
     let path = points(&crew.step.path, l);
     let twist = points(&crew.step.twist, l);
     let size = |p: Vec3| p.iter().fold(0.0f64, |m, c| m.max(c.abs()));
@@ -93,7 +106,8 @@ pub(super) fn trace<const W: usize, H: Copy>(crew: &Crew<W, H>, l: usize, theta:
             lane.particle.number,
             crew.time[l] + t * crew.h[l],
             add(x, column(&offset, l)),
-            column(&velocity, l),
+            // a path by chance says nothing of the velocity at its start
+            if i == 0 { v } else { column(&velocity, l) },
             add(spin, evaluate(&twist, t)),
         );
     }

@@ -74,7 +74,8 @@ impl<D: Domain> Walk<'_, D> {
                 contact = self.begin_contact(crew, l, hit, &mut after);
                 put(crew, l, hit.meeting.position, after.velocity, after.spin);
             } else {
-                pressed = after.bounces && self.has_chance() && self.is_pressed_by_chance(crew, l, hit, &after);
+                let eddies = self.dynamics.random_walk.is_some();
+                pressed = after.bounces && eddies && self.is_pressed_by_chance(crew, l, hit, &after);
             }
         }
         if matches!(after.event, Event::Capture | Event::Settle)
@@ -220,7 +221,7 @@ impl<D: Domain> Walk<'_, D> {
         if up > 0.0 && up * up >= limit * self.dynamics.press_at_most(self.domain, here, &body, x, along, n).max(0.0) {
             return false;
         }
-        (body.eddy, body.kick) = ([None], [[0.0]; 3]);
+        body.eddy = [None];
         let press = self.press(here, &body, x, along, after.spin, n);
         if self.dynamics.brownian && press * height <= self.thermal_energy(&body) {
             // the molecules lift it higher than that again
@@ -232,7 +233,7 @@ impl<D: Domain> Walk<'_, D> {
         if up <= 0.0 { press > 0.0 } else { up * up < limit * press }
     }
 
-    /// Would the next bounce rise to no height that counts, as the present eddy and kick push?
+    /// Would the next bounce rise to no height that counts, as the present eddy pushes?
     #[inline(never)]
     fn is_pressed_by_chance<const W: usize>(
         &self,
@@ -247,7 +248,11 @@ impl<D: Domain> Walk<'_, D> {
         let height = self.settings.settle_height.of(radius).max(LOWEST * radius);
         let along = sub(after.velocity, scale(n, up));
         let here = (crew.here[l], crew.time[l]);
-        let press = self.press(here, &crew.bodies.one(l), hit.meeting.position, along, after.spin, n);
+        let body = crew.bodies.one(l);
+        let press = self.press(here, &body, hit.meeting.position, along, after.spin, n);
+        if self.dynamics.brownian && press * height <= self.thermal_energy(&body) {
+            return false;
+        }
         press > 0.0 && up * up < 2.0 * height * press
     }
 

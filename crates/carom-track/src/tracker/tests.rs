@@ -218,28 +218,6 @@ fn any_company_gives_the_same_bits() {
 }
 
 #[test]
-fn brownian_spheres_spread_as_einstein_says() {
-    let domain = AnyDomain::new(Flow::Still, vec![]);
-    let mut d = dynamics(Drag::Stokes);
-    d.forces.gravity = [0.0; 3];
-    d.forces.slip = crate::force::Slip::Davies;
-    d.brownian = true;
-    let n = 300;
-    let diameter = 2e-7;
-    let particles: Vec<_> =
-        (0..n).map(|i| Particle { diameter, density: 1000.0, ..sphere(i, [0.0; 3], [0.0; 3]) }).collect();
-    let like = crate::force::Sphere { diameter, density: 1000.0 };
-    let tau = d.relaxation_time(&like);
-    let until = 100.0 * tau;
-    let log = track(&domain, &d, &[], Settings { until, tolerance: 1e-3, ..settings() }, &particles);
-    let spread = log.ends.iter().flat_map(|e| e.position).map(|x| x * x).sum::<f64>() / (3 * n) as f64;
-    let diffusivity = crate::force::brownian::diffusivity(&d.fluid, &like, d.slip(&like));
-    // from rest, 2D(t − 3τ/2) for t ≫ τ; four standard errors of a variance, seed 1
-    let ratio = spread / (2.0 * diffusivity * (until - 1.5 * tau));
-    assert!((ratio - 1.0).abs() < 4.0 * (2.0 / (3 * n) as f64).sqrt(), "{ratio}");
-}
-
-#[test]
 fn spheres_without_inertia_follow_the_eddies_of_a_channel_and_one_lane_gives_the_bits_of_eight() {
     use crate::flow::{Channel, Profile};
     let fluid = Fluid::default();
@@ -287,6 +265,7 @@ fn a_spinning_sphere_is_lifted_and_slows_down() {
 mod any_walls;
 mod contact;
 mod contact_round;
+
 mod removal;
 mod scatter;
 mod starts;

@@ -35,18 +35,18 @@ impl<D> Clone for Walk<'_, D> {
 /// Steps after which a sphere that goes on undisturbed is looked at again: it may never meet anything any more.
 const LOOK: u64 = 64;
 /// Edges met in a row without any time between them after which a sphere is led off the edge.
-const MOST_EDGES: u32 = 8;
+pub(super) const MOST_EDGES: u32 = 8;
 /// Share of the step that the tolerance allows which is always worth trying.
-const LEAST_SHARE: f64 = 1.0 / 64.0;
+pub(super) const LEAST_SHARE: f64 = 1.0 / 64.0;
 /// What is left of a step that leads off an edge.
-const SHORT: f64 = 1e-3;
+pub(super) const SHORT: f64 = 1e-3;
 
 /// The forces on the spheres of all lanes.
-struct Acting<'a, const W: usize, D: Domain> {
-    dynamics: &'a Dynamics,
-    domain: &'a D,
-    here: &'a [D::Here; W],
-    bodies: &'a Bodies<W>,
+pub(super) struct Acting<'a, const W: usize, D: Domain> {
+    pub dynamics: &'a Dynamics,
+    pub domain: &'a D,
+    pub here: &'a [D::Here; W],
+    pub bodies: &'a Bodies<W>,
 }
 
 impl<const W: usize, D: Domain> Derivative<W> for Acting<'_, W, D> {
@@ -74,6 +74,14 @@ impl<D: Domain> Walk<'_, D> {
             }
             if !working {
                 return;
+            }
+            if self.dynamics.brownian {
+                for l in 0..W {
+                    while crew.busy[l] {
+                        self.diffuse(&mut crew, l, sink);
+                    }
+                }
+                continue;
             }
             if !self.domain.is_one_piece() {
                 self.limit(&mut crew);
@@ -145,6 +153,9 @@ impl<D: Domain> Walk<'_, D> {
             return;
         }
         crew.next[l] = self.first_step(crew, l);
+        if self.dynamics.brownian {
+            crew.lanes[l].diffusion = self.diffusion(crew, l);
+        }
         if self.has_chance() {
             self.renew(crew, l, 0.0);
         }
@@ -153,7 +164,7 @@ impl<D: Domain> Walk<'_, D> {
     }
 
     /// Tells once of a sphere that is where nothing is known of the fluid.
-    fn stray<const W: usize>(&self, crew: &mut Crew<W, D::Here>, l: usize, sink: &mut dyn Sink) {
+    pub(super) fn stray<const W: usize>(&self, crew: &mut Crew<W, D::Here>, l: usize, sink: &mut dyn Sink) {
         if !crew.lanes[l].strayed && self.domain.is_beyond(crew.here[l]) {
             crew.lanes[l].strayed = true;
             sink.strayed();

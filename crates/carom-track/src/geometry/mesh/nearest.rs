@@ -21,7 +21,16 @@ pub(super) enum Part {
 impl Mesh {
     /// The nearest point of all, and its face.
     pub(in crate::geometry) fn nearest(&self, x: Vec3) -> Option<(u32, Vec3)> {
-        let (mut best, mut found) = (f64::INFINITY, None);
+        self.nearest_within(x, f64::INFINITY)
+    }
+
+    /// Distance of a point from the nearest triangle, on whichever side, m; `None` if it is at least `far`.
+    pub(in super::super) fn distance_within(&self, x: Vec3, far: f64) -> Option<f64> {
+        self.nearest_within(x, far).map(|(_, foot)| norm(sub(x, foot)))
+    }
+
+    fn nearest_within(&self, x: Vec3, far: f64) -> Option<(u32, Vec3)> {
+        let (mut best, mut found) = (far, None);
         let mut stack = ArrayVec::<(f64, u32), STACK>::new();
         stack.push((0.0, 0));
         while let Some((distance, node)) = stack.pop() {
