@@ -5,7 +5,7 @@
 //! nothing presses or the wall ends. It has settled when this motion has ended too. Between two walls it moves along their groove,
 //! and three hold it.
 //!
-//! An eddy or a kick that pushes a sphere against a wall it bounces off makes a series of ever lower bounces too. Below the height that
+//! An eddy that pushes a sphere against a wall it bounces off makes a series of ever lower bounces too. Below the height that
 //! counts as none they are this motion for as long as that push lasts: the same force along the wall, the same friction, but it never
 //! settles and no row tells of it.
 //!
