@@ -132,6 +132,9 @@ impl Over {
     /// Through the values of a list, which share the unit of the last.
     fn listed(quantity: Swept, text: &str) -> Result<Self, String> {
         let written: Vec<&str> = text.split(',').collect();
+        if written.iter().any(|value| value.trim().is_empty()) {
+            return Err(format!("the list '{text}' has a comma with no value beside it"));
+        }
         let last = written.last().copied().unwrap_or_default();
         let read = |value: &&str| quantity.read(&with_unit(value, last));
         let values = written.iter().map(read).collect::<Result<Vec<_>, _>>()?;
@@ -229,7 +232,8 @@ mod tests {
             ("diameter=1um..1kg", "no unit of length"),
             ("speed=1,5,2", "does not rise"),
             ("speed=1,1", "does not rise"),
-            ("speed=1,", "no number"),
+            ("speed=1,", "no value beside it"),
+            ("speed=1,,2", "no value beside it"),
             ("diameter=1,2kg", "no unit of length"),
         ] {
             let error = text.parse::<Over>().expect_err(text);
