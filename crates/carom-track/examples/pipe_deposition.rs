@@ -10,9 +10,7 @@ use carom_report::{Axis, Color, Column, Plot, Series, Table};
 use carom_track::flow::{Fluid, Pipe, Profile};
 use carom_track::force::{Slip, Sphere, relaxation_time};
 use carom_track::record::{End, Fate};
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use study::{CaseFile, Paths, Result, logspace, meters, track};
+use study::{CaseFile, Paths, Result, in_parallel, logspace, meters, track, wilson};
 
 const RADIUS: f64 = 6.35e-3;
 const SPEED: f64 = 12.15;
@@ -25,6 +23,7 @@ const TO: f64 = 0.99;
 struct Walk {
     label: &'static str,
     column: &'static str,
+    model: &'static str,
     near_wall: &'static str,
     drift: bool,
     /// Droplets for each point.
@@ -33,7 +32,9 @@ struct Walk {
     color: Color,
 }
 
-const WALKS: [Walk; 6] = [
+const WALKS: [Walk; 8] = [
+    langevin("Langevin", "langevin", "dns", Marker::Square, Color::BLACK),
+    langevin("Langevin, Kallio & Reeks", "langevin_kallio_reeks", "kallio-reeks", Marker::Square, Color::ORANGE),
     walk("Wang & James", "wang_james", "wang-james", true, Marker::Triangle, Color::VERMILION),
     walk("Kallio & Reeks", "kallio_reeks", "kallio-reeks", true, Marker::Circle, Color::GREEN),
     walk("isotropic", "isotropic", "isotropic", true, Marker::Cross, Color::BLUE),
@@ -51,7 +52,17 @@ const fn walk(
     color: Color,
 ) -> Walk {
     let count = if drift { 1000 } else { 200 };
-    Walk { label, column, near_wall, drift, count, marker, color }
+    Walk { label, column, model: "eddies", near_wall, drift, count, marker, color }
+}
+
+const fn langevin(
+    label: &'static str,
+    column: &'static str,
+    near_wall: &'static str,
+    marker: Marker,
+    color: Color,
+) -> Walk {
+    Walk { model: "langevin", ..walk(label, column, near_wall, true, marker, color) }
 }
 
 fn main() -> Result<()> {
@@ -107,32 +118,6 @@ fn correlations() -> Plot {
     .with(Series::line("Wood 1981", tau, wood).color(Color::GREY).dashed())
 }
 
-/// The results of `count` jobs, in order, by as many threads as there are cores.
-fn in_parallel<T: Send>(
-    count: usize,
-    job: impl Fn(usize) -> std::result::Result<T, String> + Sync,
-) -> std::result::Result<Vec<T>, String> {
-    let next = AtomicUsize::new(0);
-    let done = Mutex::new(Vec::new());
-    std::thread::scope(|scope| {
-        for _ in 0..std::thread::available_parallelism().map_or(1, usize::from) {
-            scope.spawn(|| {
-                loop {
-                    let i = next.fetch_add(1, Ordering::Relaxed);
-                    if i >= count {
-                        break;
-                    }
-                    let result = job(i);
-                    done.lock().unwrap_or_else(std::sync::PoisonError::into_inner).push((i, result));
-                }
-            });
-        }
-    });
-    let mut done = done.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
-    done.sort_by_key(|(i, _)| *i);
-    done.into_iter().map(|(_, result)| result).collect()
-}
-
 /// The diameter of a droplet of a relaxation time, by bisection (slip depends on it).
 fn diameter(fluid: &Fluid, time: f64) -> f64 {
     let (mut low, mut high) = (1e-8, 1e-3);
@@ -148,7 +133,8 @@ fn diameter(fluid: &Fluid, time: f64) -> f64 {
 /// Deposition velocity from the share of the droplets that reach `FROM` and deposit before `TO`,
 /// V = (U D/4L) ln(1/(1 − share)), with a 95 % interval. m/s.
 fn deposition(case: &CaseFile, walk: &Walk, diameter: f64) -> Result<[f64; 3]> {
-    let case = case.clone().set("forces.random_walk.near_wall", walk.near_wall);
+    let case = case.clone().set("forces.random_walk.model", walk.model);
+    let case = case.set("forces.random_walk.near_wall", walk.near_wall);
     let case = case.set("forces.random_walk.drift", walk.drift);
     let case = case.set_each("injection", "diameter", meters(diameter)).set_each("injection", "count", walk.count);
     let ends: Vec<End> = track(&case.case()?, Paths::Dropped).into_iter().map(|t| t.end).collect();
@@ -158,12 +144,4 @@ fn deposition(case: &CaseFile, walk: &Walk, diameter: f64) -> Result<[f64; 3]> {
     let per_log = SPEED * 2.0 * RADIUS / (4.0 * (TO - FROM));
     let (low, high) = wilson(share, reached);
     Ok([low, share, high].map(|s| per_log * (1.0 / (1.0 - s)).ln()))
-}
-
-/// The 95 % interval of a share found among `n` (Wilson 1927).
-fn wilson(share: f64, n: f64) -> (f64, f64) {
-    let z2 = 1.96f64.powi(2) / n;
-    let middle = (share + 0.5 * z2) / (1.0 + z2);
-    let half = (z2 * (share * (1.0 - share) + 0.25 * z2)).sqrt() / (1.0 + z2);
-    ((middle - half).max(0.0), middle + half)
 }

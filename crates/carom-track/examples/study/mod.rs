@@ -7,6 +7,8 @@ use carom_track::Case;
 use carom_track::record::{End, Event, ImpactRecord, Sink};
 use carom_track::tracker::Particle;
 use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Whatever may go wrong.
 pub type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
@@ -154,4 +156,38 @@ pub fn linspace(from: f64, to: f64, n: usize) -> Vec<f64> {
 /// A length as a case file writes it.
 pub fn meters(x: f64) -> String {
     format!("{x:e} m")
+}
+
+/// The results of `count` jobs, in order, by as many threads as there are cores.
+pub fn in_parallel<T: Send>(
+    count: usize,
+    job: impl Fn(usize) -> std::result::Result<T, String> + Sync,
+) -> std::result::Result<Vec<T>, String> {
+    let next = AtomicUsize::new(0);
+    let done = Mutex::new(Vec::new());
+    std::thread::scope(|scope| {
+        for _ in 0..std::thread::available_parallelism().map_or(1, usize::from) {
+            scope.spawn(|| {
+                loop {
+                    let i = next.fetch_add(1, Ordering::Relaxed);
+                    if i >= count {
+                        break;
+                    }
+                    let result = job(i);
+                    done.lock().unwrap_or_else(std::sync::PoisonError::into_inner).push((i, result));
+                }
+            });
+        }
+    });
+    let mut done = done.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+    done.sort_by_key(|(i, _)| *i);
+    done.into_iter().map(|(_, result)| result).collect()
+}
+
+/// The 95 % interval of a share found among `n` (Wilson 1927).
+pub fn wilson(share: f64, n: f64) -> (f64, f64) {
+    let z2 = 1.96f64.powi(2) / n;
+    let middle = (share + 0.5 * z2) / (1.0 + z2);
+    let half = (z2 * (share * (1.0 - share) + 0.25 * z2)).sqrt() / (1.0 + z2);
+    ((middle - half).max(0.0), middle + half)
 }

@@ -5,7 +5,7 @@ use super::files::Files;
 use super::text::{FlowText, ForcesText, Si, WallDragText};
 use crate::dynamics::Dynamics;
 use crate::flow::{Channel, Flow, Fluid, Named, Pipe, Profile, RoundJet, SlotJet, Stagnation, Symmetry, Table};
-use crate::force::{Drag, Forces, Life, NearWall, RandomWalk, Slip, Thermophoresis, WallDrag};
+use crate::force::{Drag, Forces, Life, Model, NearWall, RandomWalk, Slip, Thermophoresis, WallDrag};
 use carom::LawError;
 use carom::spec::At;
 use carom::units::TemperatureGradient;
@@ -208,18 +208,24 @@ pub(super) const SLIPS: [(&str, Slip); 3] =
     [("none", Slip::None), ("davies", Slip::Davies), ("allen-raabe", Slip::AllenRaabe)];
 
 fn random_walk(text: &ForcesText) -> Result<Option<RandomWalk>, LawError> {
-    const WALLS: [(&str, NearWall); 3] = [
+    const MODELS: [(&str, Model); 2] = [("eddies", Model::Eddies), ("langevin", Model::Langevin)];
+    const WALLS: [(&str, NearWall); 4] = [
         ("isotropic", NearWall::Isotropic),
         ("wang-james", NearWall::WangJames),
         ("kallio-reeks", NearWall::KallioReeks),
+        ("dns", NearWall::Dns),
     ];
     const LIVES: [(&str, Life); 2] = [("constant", Life::Constant), ("random", Life::Random)];
     let Some(text) = &text.random_walk else { return Ok(None) };
-    let mut walk = RandomWalk::default();
+    let model = text.model.as_ref().map_or(Ok(Model::Eddies), |m| word(m, "random walk", &MODELS))?;
+    let mut walk = if model == Model::Langevin { RandomWalk::langevin() } else { RandomWalk::default() };
     if let Some(near_wall) = &text.near_wall {
         walk.near_wall = word(near_wall, "near-wall correction", &WALLS)?;
     }
     if let Some(life) = &text.life {
+        if model == Model::Langevin {
+            return Err(wrong(life, "a Langevin walk has no eddies and so no life").help("leave it out"));
+        }
         walk.life = word(life, "eddy life", &LIVES)?;
     }
     if let Some(drift) = text.drift {

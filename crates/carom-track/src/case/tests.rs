@@ -1,4 +1,5 @@
 use super::*;
+use crate::force::{NearWall, RandomWalk};
 
 mod curvature;
 mod fluid;
@@ -218,6 +219,13 @@ fn the_random_walk_is_well_mixed_unless_told_otherwise() {
         read(&text).unwrap().dynamics.random_walk.unwrap()
     };
     assert!(walk("").drift && walk("drift = true").drift && !walk("drift = false").drift);
+    assert_eq!(walk("model = \"eddies\""), walk(""));
+    assert_eq!(walk("model = \"langevin\""), RandomWalk::langevin());
+    let mixed = walk("model = \"langevin\", near_wall = \"kallio-reeks\", time_scale = 0.2");
+    assert_eq!(mixed, RandomWalk { near_wall: NearWall::KallioReeks, time_scale: 0.2, ..RandomWalk::langevin() });
+    let wrong = GOOD.replace("drag = ", "random_walk = { model = \"langevin\", life = \"random\" }\ndrag = ");
+    let error = read(&wrong).expect_err("no eddies").to_string();
+    assert!(error.contains("no eddies"), "{error}");
 }
 
 /// A file of two solids, each a wall of its own; what no wall takes, and a wall in the wrong unit, are told.

@@ -109,6 +109,7 @@ pub(super) struct LeastGapText {
 #[derive(Debug, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RandomWalkText {
+    pub model: Option<At<String>>,
     pub near_wall: Option<At<String>>,
     pub life: Option<At<String>>,
     pub drift: Option<bool>,

@@ -17,7 +17,7 @@ pub mod thermophoresis;
 pub mod wall_drag;
 
 pub use drag::{Drag, relaxation_time, reynolds};
-pub use random_walk::{Eddy, Life, NearWall, RandomWalk, Surroundings};
+pub use random_walk::{Eddy, Life, Model, NearWall, RandomWalk, Surroundings};
 pub use slip::Slip;
 pub use wall_drag::WallDrag;
 

@@ -101,7 +101,8 @@ impl<D: Domain> Walk<'_, D> {
                 chance.place = here();
             }
             let age = if crossed { 0.0 } else { chance.eddy.overdue() };
-            chance.eddy = walk.next_eddy(age, || {
+            let last = chance.eddy;
+            chance.eddy = walk.next_eddy(&last, age, || {
                 let mut draws = Stream::new(self.settings.seed, number, Purpose::Eddy, chance.eddies);
                 chance.eddies = chance.eddies.wrapping_add(1);
                 (chance.eddies == 1, draws.normals(), draws.open_uniform())

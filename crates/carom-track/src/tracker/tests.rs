@@ -218,30 +218,33 @@ fn any_company_gives_the_same_bits() {
 }
 
 #[test]
-fn spheres_without_inertia_follow_the_eddies_of_a_channel_and_one_lane_gives_the_bits_of_eight() {
+fn small_spheres_follow_the_turbulence_of_a_channel_and_one_lane_gives_the_bits_of_eight() {
     use crate::flow::{Channel, Profile};
+    use crate::force::RandomWalk;
     let fluid = Fluid::default();
     let flow = Flow::Channel(Channel::new(Profile::Turbulent, 0.02, 10.0, &fluid).unwrap());
     let walls = vec![plane("low", [0.0; 3], [0.0, 1.0, 0.0]), plane("high", [0.0, 0.02, 0.0], [0.0, -1.0, 0.0])];
     let domain = AnyDomain::new(flow, walls);
     let mut d = dynamics(Drag::SchillerNaumann);
     d.forces.gravity = [0.0; 3];
-    d.random_walk = Some(crate::force::RandomWalk::default());
     let behaviors = [Behavior::Trap, Behavior::Trap];
     let particles: Vec<_> = (0..40)
         .map(|i| Particle { diameter: 5e-6, density: 1000.0, ..sphere(i, [0.0, 0.01, 0.0], [10.0, 0.0, 0.0]) })
         .collect();
     let settings = Settings { until: 0.006, tolerance: 1e-3, ..settings() };
-    let log = track(&domain, &d, &behaviors, settings, &particles);
-    let spread = log.ends.iter().map(|e| (e.position[1] - 0.01).powi(2)).sum::<f64>() / 40.0;
-    // Taylor: at most v' t, at least a tenth of it
-    let v = (domain.fluid(0.0, [0.0, 0.01, 0.0]).k * 2.0 / 3.0).sqrt();
-    assert!(spread.sqrt() < 1.5 * v * 0.006 && spread.sqrt() > 0.1 * v * 0.006, "{} {}", spread.sqrt(), v * 0.006);
-    for p in particles.iter().take(8) {
-        let mut alone = Log::default();
-        let tracker = Tracker { domain: &domain, dynamics: &d, behaviors: &behaviors, settings };
-        tracker.run_plain(&mut std::iter::once(*p), &mut alone).unwrap();
-        assert_eq!(log.ends.iter().find(|e| e.particle.number == p.number), alone.ends.first());
+    for walk in [RandomWalk::default(), RandomWalk::langevin()] {
+        d.random_walk = Some(walk);
+        let log = track(&domain, &d, &behaviors, settings, &particles);
+        let spread = log.ends.iter().map(|e| (e.position[1] - 0.01).powi(2)).sum::<f64>() / 40.0;
+        // Taylor: at most v' t, at least a tenth of it
+        let v = (domain.fluid(0.0, [0.0, 0.01, 0.0]).k * 2.0 / 3.0).sqrt();
+        assert!(spread.sqrt() < 1.5 * v * 0.006 && spread.sqrt() > 0.1 * v * 0.006, "{} {}", spread.sqrt(), v * 0.006);
+        for p in particles.iter().take(8) {
+            let mut alone = Log::default();
+            let tracker = Tracker { domain: &domain, dynamics: &d, behaviors: &behaviors, settings };
+            tracker.run_plain(&mut std::iter::once(*p), &mut alone).unwrap();
+            assert_eq!(log.ends.iter().find(|e| e.particle.number == p.number), alone.ends.first());
+        }
     }
 }
 

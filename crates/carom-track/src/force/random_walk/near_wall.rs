@@ -15,6 +15,8 @@ pub enum NearWall {
     WangJames,
     /// Wall-normal intensity and time scale of Kallio & Reeks 1989, along and across as Wang & James.
     KallioReeks,
+    /// All three intensities, the shear stress and the time scale of direct simulations of channels.
+    Dns,
 }
 
 /// Where the corrections begin to fade and where they have ended, y⁺.
@@ -41,7 +43,18 @@ impl NearWall {
                 let normal = kallio_reeks_rms(y_plus) * local.friction_velocity;
                 [along, share.mul_add(normal - sigma, sigma), across]
             }
+            Self::Dns => dns_rms(y_plus).map(|f| share.mul_add(f * local.friction_velocity - sigma, sigma)),
         }
+    }
+
+    /// Minus the correlation of the components along the flow and along the wall's normal.
+    #[inline(always)]
+    pub(super) fn correlation(self, local: &Local, nu: f64) -> f64 {
+        if self != Self::Dns {
+            return 0.0;
+        }
+        let y_plus = wall_units(local, nu);
+        share(y_plus) * dns_correlation(y_plus)
     }
 
     /// T_L near a wall for one of the free flow, s.
@@ -55,6 +68,7 @@ impl NearWall {
         let unit = nu / (local.friction_velocity * local.friction_velocity);
         let near = match self {
             Self::KallioReeks => kallio_reeks_time(y_plus) * unit,
+            Self::Dns => dns_time(y_plus) * unit,
             _ => free.max(SUBLAYER_TIME * unit),
         };
         share.mul_add(near - free, free)
@@ -96,6 +110,27 @@ fn kallio_reeks_time(y_plus: f64) -> f64 {
     if y_plus <= 5.0 { SUBLAYER_TIME } else { 7.122 + 0.5731 * y_plus - 0.001_29 * y_plus * y_plus }
 }
 
+/// u'⁺, v'⁺, w'⁺.
+#[inline(always)]
+fn dns_rms(y_plus: f64) -> [f64; 3] {
+    let y = y_plus.max(1e-9);
+    let u = 0.40 * y / (1.0 + 0.0239 * pow(y, 1.496));
+    let v = 0.0116 * y * y / (1.0 + 0.203 * y + 0.001_40 * pow(y, 2.421));
+    let w = 0.19 * y / (1.0 + 0.0361 * pow(y, 1.322));
+    [u, v, w]
+}
+
+#[inline(always)]
+fn dns_correlation(y_plus: f64) -> f64 {
+    0.41 - 0.19 * exp(-y_plus / 3.0)
+}
+
+#[inline(always)]
+fn dns_time(y_plus: f64) -> f64 {
+    let slope = 0.355 * y_plus;
+    (6.2 * 6.2 + slope * slope).sqrt()
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::tests::{NU, near_wall};
@@ -118,7 +153,7 @@ mod tests {
 
     #[test]
     fn corrections_end_without_a_jump() {
-        for correction in [NearWall::WangJames, NearWall::KallioReeks] {
+        for correction in [NearWall::WangJames, NearWall::KallioReeks, NearWall::Dns] {
             let at = |y_plus: f64| correction.intensities(&near_wall(y_plus), NU);
             assert_eq!(at(200.0), NearWall::Isotropic.intensities(&near_wall(200.0), NU), "{correction:?}");
             for y_plus in [150.0, 200.0] {
@@ -145,6 +180,34 @@ mod tests {
         // Hoyas & Jiménez 2008, δ⁺ = 547: y⁺, v'⁺
         for (y, v) in [(8.0, 0.280), (15.0, 0.539), (30.0, 0.855), (50.0, 0.998), (100.0, 1.022)] {
             assert!((kallio_reeks_rms(y) / v - 1.0f64).abs() < 0.1, "{y}");
+        }
+    }
+
+    #[test]
+    fn fits_to_direct_simulation() {
+        // Hoyas & Jiménez, δ⁺ = 547, then 2003: y⁺, u'⁺, v'⁺, w'⁺, −⟨u'v'⟩⁺, dU⁺/dy⁺
+        for [y, u, v, w, uv, slope] in [
+            [1.0289, 0.4118, 0.010_849, 0.2377, 0.001_145_4, 0.996_97],
+            [3.3313, 1.2866, 0.082_713, 0.5996, 0.038_076, 0.955_80],
+            [4.9739, 1.8032, 0.150_34, 0.7650, 0.108_82, 0.882_05],
+            [10.505, 2.6569, 0.380_99, 1.0747, 0.444_36, 0.536_59],
+            [14.795, 2.7602, 0.532_59, 1.1999, 0.629_45, 0.343_90],
+            [29.739, 2.4239, 0.851_51, 1.3513, 0.840_06, 0.106_75],
+            [49.661, 2.0587, 0.996_62, 1.3552, 0.861_57, 0.048_649],
+            [99.734, 1.7509, 1.0225, 1.2519, 0.792_01, 0.024_604],
+            [4.6945, 1.8316, 0.149_57, 0.8241, 0.102_09, 0.895_95],
+            [14.403, 2.9259, 0.548_77, 1.3386, 0.638_70, 0.354_50],
+            [30.564, 2.6441, 0.899_72, 1.5341, 0.882_72, 0.101_92],
+            [51.270, 2.3582, 1.0513, 1.5553, 0.927_38, 0.046_728],
+            [100.16, 2.1759, 1.1090, 1.4862, 0.925_91, 0.023_573],
+        ] {
+            let got = dns_rms(y);
+            assert!((got[1] / v - 1.0f64).abs() < 0.16, "{y} {got:?}");
+            assert!((got[0] / u - 1.0f64).abs() < 0.26 && (got[2] / w - 1.0f64).abs() < 0.26, "{y} {got:?}");
+            assert!((dns_correlation(y) / (uv / (u * v)) - 1.0).abs() < 0.13, "{y}");
+            // σ_n² T_L = ν_t/0.9
+            let time = uv / slope / (0.9 * v * v);
+            assert!(y < 3.0 || (dns_time(y) / time - 1.0).abs() < 0.22, "{y} {time}");
         }
     }
 

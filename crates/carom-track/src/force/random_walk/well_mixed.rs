@@ -44,7 +44,7 @@ fn follow(
 ) -> Vec3 {
     let around = |x| walk.surroundings(&fluid, x, nu, 0.0);
     let mut x = start;
-    let mut eddy = walk.next_eddy(0.0, &mut draw);
+    let mut eddy = walk.next_eddy(&Eddy::NONE, 0.0, &mut draw);
     let mut here = around(x);
     let mut time = 0.0;
     while time < until {
@@ -63,7 +63,7 @@ fn follow(
         here = there;
         time += h;
         if eddy.is_over() {
-            eddy = walk.next_eddy(eddy.overdue(), &mut draw);
+            eddy = walk.next_eddy(&eddy, eddy.overdue(), &mut draw);
             here = around(x);
         }
     }
@@ -79,48 +79,74 @@ fn wavy(x: Vec3) -> Local {
     Local { k, epsilon: 0.15 * k / time, ..Local::uniform([0.0; 3]) }
 }
 
+/// χ² of fluid elements in such turbulence after a time (s).
+fn spread_in_waves(walk: &RandomWalk, seed: u64, count: u64, until: f64) -> f64 {
+    let end = |i: u64| {
+        let start = [0.0, (i as f64 + 0.5) / count as f64, 0.0];
+        follow(walk, wavy, NU, start, until, draws(seed, i))[1].rem_euclid(1.0)
+    };
+    chi_square(&(0..count).map(end).collect::<Vec<_>>())
+}
+
 #[test]
 fn fluid_elements_stay_evenly_spread_where_the_turbulence_varies() {
     let (seed, count) = (1, 8_000);
     for life in LIVES {
         let walk = RandomWalk { near_wall: NearWall::Isotropic, life, ..RandomWalk::default() };
-        let spread = |walk: &RandomWalk, until: f64| {
-            let end = |i: u64| {
-                let start = [0.0, (i as f64 + 0.5) / count as f64, 0.0];
-                follow(walk, wavy, NU, start, until, draws(seed, i))[1].rem_euclid(1.0)
-            };
-            chi_square(&(0..count).map(end).collect::<Vec<_>>())
-        };
         // within an eddy's life, after a few, and after many
         for until in [0.1, 0.4, 1.5] {
-            let found = spread(&walk, until);
+            let found = spread_in_waves(&walk, seed, count, until);
             assert!(found < CHI_SQUARE, "seed {seed}: {life:?} after {until} s: {found}");
         }
-        let plain = spread(&RandomWalk { drift: false, ..walk }, 1.5);
+        let plain = spread_in_waves(&RandomWalk { drift: false, ..walk }, seed, count, 1.5);
         assert!(plain > 10.0 * CHI_SQUARE, "seed {seed}: {life:?} without drift: {plain}");
     }
 }
 
 #[test]
-fn fluid_elements_stay_evenly_spread_in_a_pipe() {
-    // δ⁺ = 290; the outermost of the rings of equal area is 7 wall units thick
-    let (seed, count, radius) = (1, 800, 6.35e-3);
-    let air = Fluid::default();
+fn a_langevin_walk_keeps_fluid_elements_evenly_spread_where_the_turbulence_varies() {
+    let (seed, count) = (1, 4_000);
+    let walk = RandomWalk { near_wall: NearWall::Isotropic, ..RandomWalk::langevin() };
+    for until in [0.1, 1.0] {
+        let found = spread_in_waves(&walk, seed, count, until);
+        assert!(found < CHI_SQUARE, "seed {seed}: after {until} s: {found}");
+    }
+    let plain = spread_in_waves(&RandomWalk { drift: false, ..walk }, seed, count, 1.0);
+    assert!(plain > 10.0 * CHI_SQUARE, "seed {seed}: without drift: {plain}");
+}
+
+/// χ² of fluid elements in a pipe of δ⁺ = 290 after 300 wall units of time; the outermost of the rings of equal area is 7 wall
+/// units thick.
+fn spread_in_a_pipe(walk: &RandomWalk, seed: u64, count: u64) -> f64 {
+    let (radius, air) = (6.35e-3, Fluid::default());
     let nu = air.kinematic_viscosity();
     let pipe = Pipe::new(Profile::Turbulent, [0.0; 3], [1.0, 0.0, 0.0], radius, 11.0, &air).unwrap();
     let until = 300.0 * nu / pipe.friction_velocity().powi(2);
-    let spread = |walk: &RandomWalk| {
-        let end = |i: u64| {
-            let r = radius * ((i as f64 + 0.5) / count as f64).sqrt();
-            let angle = 2.0 * PI * 0.618 * i as f64;
-            let start = [0.0, r * angle.cos(), r * angle.sin()];
-            let x = follow(walk, |x| pipe.sample(x), nu, start, until, draws(seed, i));
-            (x[1] * x[1] + x[2] * x[2]) / (radius * radius)
-        };
-        let ends: Vec<f64> = (0..count).map(end).collect();
-        assert!(ends.iter().all(|s| *s < 1.0), "none through the wall");
-        chi_square(&ends)
+    let end = |i: u64| {
+        let r = radius * ((i as f64 + 0.5) / count as f64).sqrt();
+        let angle = 2.0 * PI * 0.618 * i as f64;
+        let start = [0.0, r * angle.cos(), r * angle.sin()];
+        let x = follow(walk, |x| pipe.sample(x), nu, start, until, draws(seed, i));
+        (x[1] * x[1] + x[2] * x[2]) / (radius * radius)
     };
+    let ends: Vec<f64> = (0..count).map(end).collect();
+    assert!(ends.iter().all(|s| *s < 1.0), "none through the wall");
+    chi_square(&ends)
+}
+
+#[test]
+fn a_langevin_walk_keeps_fluid_elements_evenly_spread_in_a_pipe() {
+    let (seed, count) = (1, 500);
+    let found = spread_in_a_pipe(&RandomWalk::langevin(), seed, count);
+    assert!(found < CHI_SQUARE, "seed {seed}: {found}");
+    let plain = spread_in_a_pipe(&RandomWalk { drift: false, ..RandomWalk::langevin() }, seed, count);
+    assert!(plain > 3.0 * CHI_SQUARE, "seed {seed}: without drift: {plain}");
+}
+
+#[test]
+fn fluid_elements_stay_evenly_spread_in_a_pipe() {
+    let (seed, count) = (1, 800);
+    let spread = |walk: &RandomWalk| spread_in_a_pipe(walk, seed, count);
     for near_wall in [NearWall::Isotropic, NearWall::WangJames, NearWall::KallioReeks] {
         for life in LIVES {
             let walk = RandomWalk { near_wall, life, ..RandomWalk::default() };
@@ -143,7 +169,7 @@ fn a_sphere_correlates_with_the_fluid_as_its_drift_says() {
             let (mut v, mut time) = ([0.0; 3], 0.0);
             let (mut uv, mut uu) = (0.0, 0.0);
             for _ in 0..eddies {
-                let eddy = walk.next_eddy(0.0, &mut draw);
+                let eddy = walk.next_eddy(&Eddy::NONE, 0.0, &mut draw);
                 let u = eddy.deviates;
                 let h = eddy.life - eddy.age;
                 let left = (-h / stokes).exp();
