@@ -32,9 +32,8 @@ struct Walk {
     color: Color,
 }
 
-const WALKS: [Walk; 8] = [
-    langevin("Langevin", "langevin", "dns", Marker::Square, Color::BLACK),
-    langevin("Langevin, Kallio & Reeks", "langevin_kallio_reeks", "kallio-reeks", Marker::Square, Color::ORANGE),
+const WALKS: [Walk; 7] = [
+    Walk { model: "langevin", ..walk("Langevin", "langevin", "dns", true, Marker::Square, Color::BLACK) },
     walk("Wang & James", "wang_james", "wang-james", true, Marker::Triangle, Color::VERMILION),
     walk("Kallio & Reeks", "kallio_reeks", "kallio-reeks", true, Marker::Circle, Color::GREEN),
     walk("isotropic", "isotropic", "isotropic", true, Marker::Cross, Color::BLUE),
@@ -53,16 +52,6 @@ const fn walk(
 ) -> Walk {
     let count = if drift { 1000 } else { 200 };
     Walk { label, column, model: "eddies", near_wall, drift, count, marker, color }
-}
-
-const fn langevin(
-    label: &'static str,
-    column: &'static str,
-    near_wall: &'static str,
-    marker: Marker,
-    color: Color,
-) -> Walk {
-    Walk { model: "langevin", ..walk(label, column, near_wall, true, marker, color) }
 }
 
 fn main() -> Result<()> {
