@@ -10,8 +10,10 @@
 
 #![allow(clippy::needless_range_loop, reason = "one index runs through several arrays of lanes or components")]
 
+pub mod exponential;
 mod tableau;
 
+use crate::lanes::{Mask, choose};
 use tableau::{A, AA, C, D, E, EA, STAGES};
 
 /// One number per particle.
@@ -41,6 +43,11 @@ pub struct Rates<const W: usize> {
     pub a: Lanes3<W>,
     /// Angular acceleration, rad/s².
     pub alpha: Lanes3<W>,
+    /// Rate at which drag changes the velocity by what it is less than the fluid's, 1/s: what [`exponential::step`] solves exactly. Any
+    /// number gives a right step; the nearer to −∂a/∂v, the longer it may be.
+    pub drag: Lanes<W>,
+    /// Likewise of the spin, 1/s.
+    pub torque: Lanes<W>,
 }
 
 impl<const W: usize> Motion<W> {
@@ -50,7 +57,7 @@ impl<const W: usize> Motion<W> {
 
 impl<const W: usize> Rates<W> {
     /// No change.
-    pub const ZERO: Self = Self { a: [[0.0; W]; 3], alpha: [[0.0; W]; 3] };
+    pub const ZERO: Self = Self { a: [[0.0; W]; 3], alpha: [[0.0; W]; 3], drag: [0.0; W], torque: [0.0; W] };
 }
 
 /// The result of one trial step. The control points are offsets from the start, in Bernstein form over the step: their
@@ -84,6 +91,27 @@ impl<const W: usize> Step<W> {
         kicks: [[[0.0; W]; 3]; STAGES],
         turns: [[[0.0; W]; 3]; STAGES],
     };
+
+    /// Takes the result of some lanes from another one.
+    #[inline(always)]
+    pub(crate) fn take(&mut self, other: &Self, lanes: &Mask<W>) {
+        for c in 0..3 {
+            choose(&mut self.end.x[c], &other.end.x[c], lanes);
+            choose(&mut self.end.v[c], &other.end.v[c], lanes);
+            choose(&mut self.end.spin[c], &other.end.spin[c], lanes);
+            choose(&mut self.rates.a[c], &other.rates.a[c], lanes);
+            choose(&mut self.rates.alpha[c], &other.rates.alpha[c], lanes);
+            for (old, new) in self.path.iter_mut().zip(&other.path) {
+                choose(&mut old[c], &new[c], lanes);
+            }
+            for (old, new) in self.twist.iter_mut().zip(&other.twist) {
+                choose(&mut old[c], &new[c], lanes);
+            }
+        }
+        choose(&mut self.rates.drag, &other.rates.drag, lanes);
+        choose(&mut self.rates.torque, &other.rates.torque, lanes);
+        choose(&mut self.error_squared, &other.error_squared, lanes);
+    }
 
     /// How far the path has come at θ in [0, 1], m, and the velocity there (the slope of the path, m/s) for steps of length
     /// `h` > 0.

@@ -8,6 +8,7 @@ mod chance;
 mod contact;
 mod crew;
 mod diffusion;
+mod kinds;
 mod lane;
 mod meeting;
 mod removal;
@@ -152,7 +153,9 @@ impl Tracker<'_> {
         // lanes ask again after the end
         let mut known = taken.fuse();
         match self.domain {
-            AnyDomain::Analytic(domain) => set.run(Flight { walk: self.walk(domain), particles: &mut known, sink }),
+            AnyDomain::Analytic(domain) => {
+                set.run(Flight { walk: self.walk(domain, set), particles: &mut known, sink })
+            }
         }
         refused.map_or(Ok(()), Err)
     }
@@ -187,8 +190,8 @@ impl Tracker<'_> {
         Ok(injections)
     }
 
-    fn walk<'b, D>(&'b self, domain: &'b D) -> Walk<'b, D> {
-        Walk { domain, dynamics: self.dynamics, behaviors: self.behaviors, settings: self.settings }
+    fn walk<'b, D>(&'b self, domain: &'b D, set: InstructionSet) -> Walk<'b, D> {
+        Walk { domain, dynamics: self.dynamics, behaviors: self.behaviors, settings: self.settings, set }
     }
 }
 

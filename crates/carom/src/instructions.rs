@@ -131,6 +131,8 @@ mod x86 {
         all!("avx512f" "avx512dq" "avx512vl" "avx512bw" "avx2" "fma" "bmi1" "bmi2")
     }
 
+    // a frame of its own, even where work is done within work
+    #[inline(never)]
     #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx512bw,avx2,fma,bmi1,bmi2")]
     pub(super) fn avx512<W: Work>(work: W) -> W::Output {
         work.run::<_, 16>(Fused)
@@ -141,6 +143,7 @@ mod x86 {
         all!("avx2" "fma" "bmi1" "bmi2")
     }
 
+    #[inline(never)]
     #[target_feature(enable = "avx2,fma,bmi1,bmi2")]
     pub(super) fn avx2<W: Work>(work: W) -> W::Output {
         work.run::<_, 8>(Fused)

@@ -16,5 +16,11 @@ use crate::vector::{add, scale};
 #[inline(always)]
 pub fn solve(density_ratio: f64, others: [f64; 3], fluid_acceleration: [f64; 3]) -> [f64; 3] {
     let half = 0.5 * density_ratio;
-    scale(add(others, scale(fluid_acceleration, half)), 1.0 / (1.0 + half))
+    scale(add(others, scale(fluid_acceleration, half)), share(density_ratio))
+}
+
+/// What it leaves of the other forces' acceleration.
+#[inline(always)]
+pub fn share(density_ratio: f64) -> f64 {
+    1.0 / (1.0 + 0.5 * density_ratio)
 }

@@ -103,6 +103,10 @@ pub struct Rates {
     pub acceleration: [f64; 3],
     /// dω/dt, rad/s².
     pub spin: [f64; 3],
+    /// Rate at which drag takes the velocity relative to the fluid away at this speed, 1/s.
+    pub drag: f64,
+    /// Likewise of the torque and the relative rotation, 1/s.
+    pub torque: f64,
 }
 
 impl Forces {
@@ -131,14 +135,14 @@ impl Forces {
         let tau = relaxation_time(fluid, sphere, slip);
         let ratio = fluid.density / sphere.density;
         let mut a = gravity::acceleration(self.gravity, if self.buoyancy { ratio } else { 0.0 });
-        let rate = self.drag.factor(reynolds) / tau;
-        a = add(
-            a,
-            match (&self.wall_drag, &local.wall) {
-                (Some(drag), Some(near)) => drag.acceleration(fluid, sphere, near, rate, local.velocity, v),
-                _ => scale(relative, rate),
-            },
-        );
+        let mut drag = self.drag.factor(reynolds) / tau;
+        match (&self.wall_drag, &local.wall) {
+            (Some(walls), Some(near)) => {
+                a = add(a, walls.acceleration(fluid, sphere, near, drag, local.velocity, v));
+                drag *= walls.strongest(fluid, sphere, near);
+            }
+            _ => a = add(a, scale(relative, drag)),
+        }
         if let Some(t) = &self.thermophoresis {
             a = add(a, thermophoresis::acceleration(fluid, sphere, t.conductivity, fluid.temperature, t.gradient));
         }
@@ -154,9 +158,11 @@ impl Forces {
         }
         if self.added_mass {
             a = added_mass::solve(ratio, a, local.acceleration);
+            drag *= added_mass::share(ratio);
         }
-        let spin = if self.rotational_drag { rotational_drag::spin_rate(fluid, sphere, rotation) } else { [0.0; 3] };
-        Rates { acceleration: a, spin }
+        let torque = if self.rotational_drag { rotational_drag::rate(fluid, sphere, rotation) } else { 0.0 };
+        let spin = if self.rotational_drag { scale(rotation, torque) } else { [0.0; 3] };
+        Rates { acceleration: a, spin, drag, torque }
     }
 }
 

@@ -18,9 +18,15 @@ use crate::vector::{norm, scale};
 /// dω_p/dt (rad/s²) at the relative rotation Ω = ½∇ × u − ω_p (rad/s).
 #[inline(always)]
 pub fn spin_rate(fluid: &Fluid, sphere: &Sphere, rotation: [f64; 3]) -> [f64; 3] {
+    scale(rotation, rate(fluid, sphere, rotation))
+}
+
+/// The rate at which the relative rotation dies at Ω (rad/s), 1/s.
+#[inline(always)]
+pub fn rate(fluid: &Fluid, sphere: &Sphere, rotation: [f64; 3]) -> f64 {
     let d = sphere.diameter;
     let h = torque_factor(reynolds(fluid, d, norm(rotation)));
-    scale(rotation, 60.0 * fluid.viscosity / (sphere.density * d * d) * h)
+    60.0 * fluid.viscosity / (sphere.density * d * d) * h
 }
 
 /// ρ_f d²|Ω|/μ for a diameter (m) and a relative rotation (rad/s).

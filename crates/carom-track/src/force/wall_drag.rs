@@ -64,16 +64,28 @@ impl WallDrag {
         u: [f64; 3],
         v: [f64; 3],
     ) -> [f64; 3] {
-        let radius = 0.5 * sphere.diameter;
-        let usual = if fluid.mean_free_path > 0.0 { fluid.mean_free_path } else { 1e-3 * radius };
-        let least = self.least_gap.unwrap_or(usual);
-        let gap = (near.distance - radius).max(least) / radius;
+        let gap = self.gap(fluid, sphere, near);
         let (u, v) = (sub(u, near.velocity), sub(v, near.velocity));
         let part = |of: [f64; 3]| scale(near.normal, dot(of, near.normal));
         let (un, vn) = (part(u), part(v));
         let across = sub(scale(un, held_normal(gap)), scale(vn, normal(gap)));
         let along = sub(scale(sub(u, un), held_along(gap)), scale(sub(v, vn), self::along(gap)));
         scale(add(across, along), rate)
+    }
+
+    /// λ_n there: the most by which the wall makes the drag stronger in any direction.
+    #[inline(always)]
+    pub fn strongest(&self, fluid: &Fluid, sphere: &Sphere, near: &Nearest) -> f64 {
+        normal(self.gap(fluid, sphere, near))
+    }
+
+    /// The gap that counts, over the radius.
+    #[inline(always)]
+    fn gap(&self, fluid: &Fluid, sphere: &Sphere, near: &Nearest) -> f64 {
+        let radius = 0.5 * sphere.diameter;
+        let usual = if fluid.mean_free_path > 0.0 { fluid.mean_free_path } else { 1e-3 * radius };
+        let least = self.least_gap.unwrap_or(usual);
+        (near.distance - radius).max(least) / radius
     }
 }
 

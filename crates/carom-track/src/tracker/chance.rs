@@ -64,7 +64,17 @@ impl<D: Domain> Walk<'_, D> {
 
     /// Gives a lane's eddy the deviates of the middle of the step it is about to try.
     pub(super) fn lean<const W: usize>(&self, crew: &mut Crew<W, D::Here>, l: usize) {
-        crew.bodies.eddy[l] = Some(crew.lanes[l].chance.midway(crew.h[l]));
+        let chance = &crew.lanes[l].chance;
+        if crew.follows[l] {
+            // what follows a gust at once must see it change, and not jump from step to step
+            crew.bodies.eddy[l] = Some(chance.eddy);
+            crew.bodies.since[l] = crew.time[l];
+            for c in 0..3 {
+                crew.bodies.drift[c][l] = chance.place.drift[c];
+            }
+        } else {
+            crew.bodies.eddy[l] = Some(chance.midway(crew.h[l]));
+        }
         crew.stale[l] = true;
     }
 
@@ -76,6 +86,9 @@ impl<D: Domain> Walk<'_, D> {
             None => crew.lanes[l].chance.look = f64::INFINITY,
         }
         crew.stale[l] |= changed;
+        if changed {
+            self.begin_anew(crew, l);
+        }
         let (time, next) = (crew.time[l], crew.lanes[l].chance.next());
         crew.stop[l] = if next > time { self.settings.until.min(next) } else { self.settings.until };
     }

@@ -22,7 +22,7 @@ use super::walk::least_step;
 use crate::domain::{Domain, Hit, Next};
 use crate::dynamics::Bodies;
 use crate::geometry::{Path, Shape, evaluate};
-use crate::integrate::{Control, Derivative, Motion as Motions, Rates, Step, growth, step};
+use crate::integrate::{Control, Derivative, Motion as Motions, Rates, Step, exponential, growth, step};
 use crate::record::Event;
 use crate::vector::{Vec3, add, dot, norm, scale, sub};
 use friction::{Kind, OnSurface};
@@ -85,6 +85,8 @@ pub(super) struct Contact<'a, D: Domain> {
     /// Whether it has been where nothing is known of the fluid.
     pub strayed: bool,
     rolls: bool,
+    /// Whether it steps as a sphere that follows the fluid.
+    follows: bool,
     next: f64,
     /// By how much a path is lifted off what the sphere touches, before other walls are looked for, m.
     lift: Vec3,
@@ -113,6 +115,7 @@ impl<'a, D: Domain> Contact<'a, D> {
         let next = 1e-3;
         let (worn, rolls, lift) = (0.0, false, [0.0; 3]);
         let (until, chance_presses) = (walk.settings.until, false);
+        let follows = walk.dynamics.follows(&body.sphere[0]);
         Self {
             walk,
             body,
@@ -127,6 +130,7 @@ impl<'a, D: Domain> Contact<'a, D> {
             normal,
             strayed: false,
             rolls,
+            follows,
             next,
             lift,
             until,
@@ -147,7 +151,15 @@ impl<'a, D: Domain> Contact<'a, D> {
 
     /// The pressing forces' acceleration and angular acceleration: the steady ones', and chance's where it presses.
     fn steady(&self, time: f64, m: &Motion) -> (Vec3, Vec3) {
-        let r = self.walk.rates_at((self.here, time), &self.body, m.x, m.v, m.spin);
+        self.shared(&self.rates(time, m))
+    }
+
+    fn rates(&self, time: f64, m: &Motion) -> Rates<1> {
+        self.walk.rates_at((self.here, time), &self.body, m.x, m.v, m.spin)
+    }
+
+    /// Acceleration and angular acceleration of some rates.
+    fn shared(&self, r: &Rates<1>) -> (Vec3, Vec3) {
         let column = |v: &[[f64; 1]; 3]| [v[0][0], v[1][0], v[2][0]];
         (column(&r.a), if self.walk.dynamics.spins() { column(&r.alpha) } else { [0.0; 3] })
     }
@@ -327,9 +339,15 @@ impl<'a, D: Domain> Contact<'a, D> {
         let acting = OnSurface { contact: self, surface, kind };
         let mut first = Rates::ZERO;
         acting.rates(&[self.time], &start, &mut first);
-        let control = Control { tolerance: self.walk.per_step(), spins: true, place: true };
+        // the spin of a sphere that rolls and follows the fluid is known from its speed
+        let spins = !(self.follows && matches!(kind, Kind::Rolls));
+        let control = Control { tolerance: self.walk.per_step(), spins, place: true };
         let mut out = Step::ZERO;
-        step(&[self.time], &start, &first, &[h], control, &acting, &mut out);
+        if self.follows {
+            exponential::step(&[self.time], &start, &first, &[h], control, &acting, &mut out);
+        } else {
+            step(&[self.time], &start, &first, &[h], control, &acting, &mut out);
+        }
         out
     }
 

@@ -34,6 +34,10 @@ pub(super) struct Crew<const W: usize, H> {
     /// Which lanes' rates are not those of their motion.
     pub stale: [bool; W],
     pub bodies: Bodies<W>,
+    /// Which lanes step as spheres that follow the fluid.
+    pub follows: [bool; W],
+    /// Whether any at work does.
+    pub some_follow: bool,
     pub h: Lanes<W>,
     pub step: Step<W>,
 }
@@ -56,6 +60,8 @@ impl<const W: usize, H: Copy> Crew<W, H> {
             stale: [false; W],
             bodies: Bodies::NONE,
             h: [0.0; W],
+            follows: [false; W],
+            some_follow: false,
             step: Step::ZERO,
         }
     }
@@ -98,6 +104,10 @@ impl<const W: usize, H: Copy> Crew<W, H> {
         }
         choose(&mut self.time, &time, &goes);
         choose(&mut self.next, &next, &goes);
+        if self.some_follow {
+            choose(&mut self.rates.drag, &self.step.rates.drag, &goes);
+            choose(&mut self.rates.torque, &self.step.rates.torque, &goes);
+        }
         for c in 0..3 {
             choose(&mut self.motion.x[c], &self.step.end.x[c], &goes);
             choose(&mut self.motion.v[c], &self.step.end.v[c], &goes);

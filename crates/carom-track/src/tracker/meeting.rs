@@ -56,6 +56,7 @@ impl<D: Domain> Walk<'_, D> {
         let spin = self.spin_at(crew, l, theta);
         crew.time[l] += theta * h;
         crew.next[l] = if theta > 0.1 { h } else { h * (4.0 * theta).max(1e-3) };
+        self.begin_anew(crew, l);
         let lane = &mut crew.lanes[l];
         lane.fitted = false;
         lane.standing = if theta * h > NO_TIME * crew.time[l] { 0 } else { lane.standing + 1 };

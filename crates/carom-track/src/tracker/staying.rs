@@ -106,6 +106,7 @@ impl<D: Domain> Walk<'_, D> {
         let mut body = crew.bodies.one(l);
         if self.drifts() {
             body.eddy = [Some(crew.lanes[l].chance.midway(until - began))];
+            body.drift = [[0.0]; 3];
         }
         let mut contact = self.contact(crew, l, hit, after).pressed_by_chance(&body, until);
         let (number, traced) = (crew.lanes[l].particle.number, crew.lanes[l].trace);

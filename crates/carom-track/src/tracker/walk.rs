@@ -10,10 +10,11 @@ use crate::domain::{Domain, Next};
 use crate::dynamics::{Bodies, Dynamics};
 use crate::force::Sphere;
 use crate::geometry::evaluate;
-use crate::integrate::{Control, Derivative, Lanes, Motion, Rates, growth, step};
+use crate::integrate::{Control, Derivative, Lanes, Motion, Rates, growth};
 use crate::lanes::{bits, mask, take_lowest};
 use crate::record::{End, Fate, Sink};
 use crate::vector::{Vec3, add};
+use carom::instructions::InstructionSet;
 
 /// All that stays the same during a run in one kind of domain.
 #[derive(Debug)]
@@ -22,6 +23,8 @@ pub(super) struct Walk<'a, D> {
     pub dynamics: &'a Dynamics,
     pub behaviors: &'a [Behavior],
     pub settings: Settings,
+    /// What this is compiled for.
+    pub set: InstructionSet,
 }
 
 impl<D> Copy for Walk<'_, D> {}
@@ -95,9 +98,7 @@ impl<D: Domain> Walk<'_, D> {
                 }
             }
             self.refresh(&mut crew);
-            let forces =
-                Acting { dynamics: self.dynamics, domain: self.domain, here: &crew.here, bodies: &crew.bodies };
-            step(&crew.time, &crew.motion, &crew.rates, &crew.h, control, &forces, &mut crew.step);
+            self.try_steps(&mut crew, control);
             let ahead = self.domain.look(&crew.here, &crew.motion.x, &crew.step.path, &crew.bodies.radius);
             let mut factor = [0.0; W];
             for l in 0..W {
@@ -128,7 +129,9 @@ impl<D: Domain> Walk<'_, D> {
     /// Puts a particle into a lane; one that has no time to fly ends at once.
     #[inline(always)]
     fn begin<const W: usize>(&self, crew: &mut Crew<W, D::Here>, l: usize, particle: Particle, sink: &mut dyn Sink) {
-        self.dynamics.body(l, Sphere { diameter: particle.diameter, density: particle.density }, &mut crew.bodies);
+        let sphere = Sphere { diameter: particle.diameter, density: particle.density };
+        self.dynamics.body(l, sphere, &mut crew.bodies);
+        crew.follows[l] = self.dynamics.follows(&sphere);
         for c in 0..3 {
             crew.motion.x[c][l] = particle.position[c];
             crew.motion.v[c][l] = particle.velocity[c];
@@ -192,6 +195,16 @@ impl<D: Domain> Walk<'_, D> {
         if time.is_finite() { share * time } else { 1.0 }
     }
 
+    /// After a blow or a new gust the drag of a sphere that follows the fluid must be seen to act first: shortens the next step.
+    #[inline(always)]
+    pub(super) fn begin_anew<const W: usize>(&self, crew: &mut Crew<W, D::Here>, l: usize) {
+        if crew.follows[l] {
+            let share = 4.0 * (self.per_step() * 1e3).sqrt().sqrt();
+            let short = share / crew.bodies.drag_rate[l];
+            crew.next[l] = if crew.next[l] < short { crew.next[l] } else { short };
+        }
+    }
+
     /// Rates of the lanes whose motion was changed. Where all come in one go, the others get the bits they have.
     #[inline(always)]
     fn refresh<const W: usize>(&self, crew: &mut Crew<W, D::Here>) {
@@ -218,6 +231,7 @@ impl<D: Domain> Walk<'_, D> {
             crew.rates.a[c][l] = rates.a[c][0];
             crew.rates.alpha[c][l] = rates.alpha[c][0];
         }
+        (crew.rates.drag[l], crew.rates.torque[l]) = (rates.drag[0], rates.torque[0]);
     }
 
     #[inline(always)]
@@ -358,6 +372,7 @@ impl<D: Domain> Walk<'_, D> {
             crew.rates.a[c][l] = crew.step.rates.a[c][l];
             crew.rates.alpha[c][l] = crew.step.rates.alpha[c][l];
         }
+        (crew.rates.drag[l], crew.rates.torque[l]) = (crew.step.rates.drag[l], crew.step.rates.torque[l]);
         if stopped && stop >= self.settings.until {
             finish(crew, l, Fate::Airborne, None, sink);
         } else if self.has_chance() {

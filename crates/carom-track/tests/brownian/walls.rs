@@ -30,9 +30,6 @@ fn even(spheres: u64, seed: u64, width: f64) {
     let heat = mean_square(log.ends.iter().flat_map(|e| e.velocity)) / s.thermal.powi(2);
     println!("seed {seed}: χ² {chi:.1} of 19, heat {heat:.3}, {} impacts", log.impacts.len());
     assert!(log.impacts.len() as u64 > 5 * spheres);
-    let folded: Vec<_> =
-        (0..10).map(|i| (0.5 * f64::from(bins[i] + bins[19 - i]) / mean * 1e4).round() / 1e4).collect();
-    println!("from the wall inwards: {folded:?}, standard error {:.4}", (0.5 / mean).sqrt());
     // one in a thousand
     assert!(chi < 43.8, "{bins:?}");
     assert!((heat - 1.0).abs() < 4.0 * (2.0 / (3 * spheres) as f64).sqrt(), "{heat}");

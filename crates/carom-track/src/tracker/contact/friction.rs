@@ -89,9 +89,21 @@ pub(super) struct OnSurface<'b, 'a, D: Domain> {
 impl<D: Domain> Derivative<1> for OnSurface<'_, '_, D> {
     fn rates(&self, time: &Lanes<1>, motion: &Motions<1>, out: &mut Rates<1>) {
         let column = |v: &[[f64; 1]; 3]| [v[0][0], v[1][0], v[2][0]];
-        let m = Motion { x: column(&motion.x), v: column(&motion.v), spin: column(&motion.spin) };
-        let (a, turn) = self.contact.steady(time[0], &m);
-        let (a, turn) = self.contact.accelerations(&self.surface.at(m.x), self.kind, &m, a, turn);
+        let mut m = Motion { x: column(&motion.x), v: column(&motion.v), spin: column(&motion.spin) };
+        let here = self.surface.at(m.x);
+        let rolls = matches!(self.kind, Kind::Rolls);
+        if rolls && self.contact.follows {
+            m.spin = here.rolling_spin(&m, self.contact.radius());
+        }
+        let rates = self.contact.rates(time[0], &m);
+        let (a, turn) = self.contact.shared(&rates);
+        let (a, turn) = self.contact.accelerations(&here, self.kind, &m, a, turn);
         (out.a, out.alpha) = (a.map(|c| [c]), turn.map(|c| [c]));
+        (out.drag, out.torque) = (rates.drag, rates.torque);
+        if rolls {
+            // friction hands over what the spin has of the motion, and what the torque takes of it
+            let spinning = 2.5 * self.surface.lever() * self.surface.lever();
+            out.drag = [(spinning * rates.drag[0] + rates.torque[0]) / (1.0 + spinning)];
+        }
     }
 }

@@ -67,6 +67,8 @@ impl<D: Domain> Contact<'_, D> {
     /// Why a step may not go on to a motion.
     fn fails(&self, surface: &Surface, kind: Kind, m: &Motion, time: f64) -> Option<Stop<D::Here>> {
         let here = surface.at(m.x);
+        let rolling = self.follows && matches!(kind, Kind::Rolls);
+        let m = &if rolling { Motion { spin: here.rolling_spin(m, self.radius()), ..*m } } else { *m };
         let (a, turn) = self.steady(time, m);
         let pressed = here.press(m, a);
         if !pressed.holds {
