@@ -7,7 +7,9 @@ use carom_track::Case;
 use carom_track::flow::{Channel, Profile};
 use carom_track::force::Sphere;
 use carom_track::record::{Event, Fate};
-use study::{CaseFile, Paths, Result, Track, linspace, meters, track};
+use study::{
+    CaseFile, Paths, Result, Track, diffusivity_and_settling, fuchs, gormley_kennedy, linspace, meters, through, track,
+};
 
 fn law(case: &Case) -> &carom::WallLaw {
     case.behaviors.iter().find_map(|b| b.laws()?.first()).expect("a wall with a law")
@@ -208,6 +210,45 @@ fn droplets_that_follow_the_fluid_stay_evenly_spread() -> Result<()> {
         assert!(tracks.iter().all(|t| t.impacts.len() < 200 && t.end.fate == Fate::Airborne), "{near_wall}");
         let near = tracks.iter().filter(|t| t.end.position[1].hypot(t.end.position[2]) > 5.5e-3).count();
         assert!((15..=35).contains(&near), "seed 1: {near_wall}: {near} of 100 in the outer quarter");
+    }
+    Ok(())
+}
+
+/// The share that comes through is a formula's, within four standard deviations.
+fn comes_through(file: &CaseFile, want: f64) -> Result<()> {
+    let (n, all) = through(&file.case()?);
+    let error = (want * (1.0 - want) / all).sqrt();
+    assert!((n / all - want).abs() < 4.0 * error, "seed 1: {n} of {all}, {want} ± {error}");
+    Ok(())
+}
+
+#[test]
+fn a_laminar_pipe_lets_through_what_gormley_and_kennedy_say() -> Result<()> {
+    let file = CaseFile::read("diffusion-pipe.toml")?.set_each("injection", "count", 400);
+    let [diffusivity, _] = diffusivity_and_settling(&file.case()?, 20e-9);
+    let mu = diffusivity * 0.1 / (0.5e-3f64.powi(2) * 55.04e-3);
+    assert!((mu - 0.1).abs() < 1e-3, "{mu}");
+    comes_through(&file, gormley_kennedy(mu))
+}
+
+#[test]
+fn plates_let_through_what_does_not_fall_their_distance_whatever_the_profile() -> Result<()> {
+    let file = CaseFile::read("settling-plates.toml")?.set_each("injection", "count", 200);
+    let [_, fall] = diffusivity_and_settling(&file.case()?, 5e-6);
+    for profile in ["laminar", "plug"] {
+        comes_through(&file.clone().set("flow.profile", profile), 1.0 - fall * 0.1 / (77e-3 * 2e-3))?;
+    }
+    Ok(())
+}
+
+#[test]
+fn a_sampling_line_loses_small_spheres_by_diffusion_and_large_ones_by_settling() -> Result<()> {
+    let file = CaseFile::read("sampling-line.toml")?.set_each("injection", "count", 200);
+    for diameter in [1e-8, 3e-7, 5e-6] {
+        let file = file.clone().set_each("injection", "diameter", meters(diameter));
+        let [diffusivity, fall] = diffusivity_and_settling(&file.case()?, diameter);
+        let diffuses = gormley_kennedy(diffusivity / (3e-3f64.powi(2) * 0.5895));
+        comes_through(&file, diffuses * fuchs(0.75 * fall / (6e-3 * 0.5895)))?;
     }
     Ok(())
 }

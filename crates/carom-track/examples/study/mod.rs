@@ -4,11 +4,16 @@
 
 use carom::material::Library;
 use carom_track::Case;
-use carom_track::record::{End, Event, ImpactRecord, Sink};
+use carom_track::force::Sphere;
+use carom_track::force::brownian::diffusivity;
+use carom_track::record::{End, Event, Fate, ImpactRecord, Sink};
 use carom_track::tracker::Particle;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// The density of the spheres whose sizes are aerodynamic diameters, kg/m³.
+pub const UNIT_DENSITY: f64 = 1000.0;
 
 /// Whatever may go wrong.
 pub type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
@@ -190,4 +195,39 @@ pub fn wilson(share: f64, n: f64) -> (f64, f64) {
     let middle = (share + 0.5 * z2) / (1.0 + z2);
     let half = (z2 * (share * (1.0 - share) + 0.25 * z2)).sqrt() / (1.0 + z2);
     ((middle - half).max(0.0), middle + half)
+}
+
+/// Penetration of a laminar pipe by diffusion, over µ = π D L/Q (Gormley & Kennedy 1949, Proc. R. Ir. Acad. 52A, 163–169).
+pub fn gormley_kennedy(mu: f64) -> f64 {
+    if mu < 0.02 {
+        let root = mu.cbrt();
+        return 1.0 - 2.5638 * root * root + 1.2 * mu + 0.1767 * mu * root;
+    }
+    let terms: [(f64, f64); 4] = [(0.81905, 3.6568), (0.09753, 22.305), (0.0325, 56.961), (0.01544, 107.62)];
+    terms.iter().map(|(c, k)| c * (-k * mu).exp()).sum()
+}
+
+/// Penetration of a horizontal laminar pipe by settling, over κ = 3 v_s L/(4 d U) (Fuchs 1964, The Mechanics of Aerosols; Thomas 1958).
+pub fn fuchs(kappa: f64) -> f64 {
+    if kappa >= 1.0 {
+        return 0.0;
+    }
+    let third = kappa.cbrt();
+    let root = (1.0 - third * third).sqrt();
+    1.0 - 2.0 / std::f64::consts::PI * (2.0 * kappa * root - third * root + third.asin())
+}
+
+/// What a sphere does in a case's fluid: diffusivity (m²/s) and settling speed under 9.81 m/s².
+pub fn diffusivity_and_settling(case: &Case, diameter: f64) -> [f64; 2] {
+    let sphere = Sphere { diameter, density: UNIT_DENSITY };
+    let (dynamics, fluid) = (&case.dynamics, &case.dynamics.fluid);
+    let buoyed = 9.81 * (1.0 - fluid.density / UNIT_DENSITY);
+    [diffusivity(fluid, &sphere, dynamics.slip(&sphere)), buoyed * dynamics.relaxation_time(&sphere)]
+}
+
+/// Spheres that came through, and all that started off the walls.
+pub fn through(case: &Case) -> (f64, f64) {
+    let tracks = track(case, Paths::Dropped);
+    let of = |fate| tracks.iter().filter(|t| t.end.fate == fate).count() as f64;
+    (of(Fate::Escaped), tracks.len() as f64 - of(Fate::Overlapping))
 }
