@@ -62,7 +62,7 @@ impl<D: Domain> Walk<'_, D> {
         self.dynamics.random_walk.is_some_and(|walk| walk.drift)
     }
 
-    /// Gives a lane's eddy the deviates of the middle of the step it is about to try.
+    /// Gives a lane's eddy the deviates of the middle of the step it is about to try, or lets them drift with the time.
     pub(super) fn lean<const W: usize>(&self, crew: &mut Crew<W, D::Here>, l: usize) {
         let chance = &crew.lanes[l].chance;
         if crew.follows[l] {
@@ -88,6 +88,9 @@ impl<D: Domain> Walk<'_, D> {
         crew.stale[l] |= changed;
         if changed {
             self.begin_anew(crew, l);
+        }
+        if crew.follows[l] && self.drifts() {
+            self.lean(crew, l);
         }
         let (time, next) = (crew.time[l], crew.lanes[l].chance.next());
         crew.stop[l] = if next > time { self.settings.until.min(next) } else { self.settings.until };

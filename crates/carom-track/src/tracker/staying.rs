@@ -104,7 +104,8 @@ impl<D: Domain> Walk<'_, D> {
     ) {
         let (began, until) = (crew.time[l], crew.stop[l]);
         let mut body = crew.bodies.one(l);
-        if self.drifts() {
+        // a sphere that follows the fluid has its gust as it changes
+        if self.drifts() && !crew.follows[l] {
             body.eddy = [Some(crew.lanes[l].chance.midway(until - began))];
             body.drift = [[0.0]; 3];
         }
