@@ -4,6 +4,8 @@ use super::keys::{Key, LawSpec};
 use super::range::Range;
 use super::uses::{Choice, IDLE_BESIDE, ONE_OF};
 use crate::error::{LawError, Problem};
+#[cfg(not(feature = "std"))]
+use crate::math::Plainly as _;
 use alloc::borrow::ToOwned;
 use alloc::string::ToString;
 

@@ -22,8 +22,6 @@ use super::written::{Built, Written};
 use super::{CurveSpec, NormalSpec, TangentialKind};
 use crate::error::LawError;
 use crate::material::{Library, Material, MaterialRef};
-#[cfg(not(feature = "std"))]
-use crate::math::Plainly as _;
 use crate::normal::empirical::Curve;
 use crate::resolved::AdhesionMode;
 use crate::roughness::RoughnessModel;
