@@ -8,7 +8,7 @@
 //!
 //! so a constant N (even flow, Stokes drag, any weight) has no error at any step. For z → 0 the weights are those of a polynomial
 //! acceleration, for z → ∞ those of the drift velocity, v = u + g′/β − (Du/Dt)/β + …; they come without cancellation and overflow
-//! at either end ([`phi`]).
+//! at either end (`phi.rs`).
 //!
 //! N is interpolated, in rising order: constant through the start; linear through the start and what that gives at the end; then
 //! through three, four and five points in time, each time where the order before leads to. Written for positions alone the kernel,
