@@ -34,3 +34,17 @@ pub struct Fields {
     /// Names of the fields that were there and are of no use here.
     pub others: Vec<String>,
 }
+
+impl Fields {
+    /// The scalar fields by name, in a fixed order.
+    pub fn scalars(&self) -> [(&'static str, Option<&Field<1>>); 6] {
+        [
+            ("k", self.k.as_ref()),
+            ("epsilon", self.epsilon.as_ref()),
+            ("omega", self.omega.as_ref()),
+            ("density", self.density.as_ref()),
+            ("temperature", self.temperature.as_ref()),
+            ("pressure", self.pressure.as_ref()),
+        ]
+    }
+}

@@ -3,9 +3,15 @@
 //! [`Mesh`] is a mesh as finite volumes hold it: polygons, each between two cells or between a cell and the outside. [`Field`] is a
 //! quantity on it, by cells or by points. [`Snapshot`] is both, and what a reader has to say of them.
 
+pub mod check;
+mod error;
 mod field;
+pub mod geometry;
 mod mesh;
+#[cfg(test)]
+mod samples;
 
+pub use error::Error;
 pub use field::{Field, Fields};
 pub use mesh::{Carry, Mesh, Patch, PatchKind, Polygons};
 
