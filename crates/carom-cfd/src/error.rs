@@ -44,11 +44,13 @@ pub enum Error {
 }
 
 impl Error {
-    pub(crate) fn io(path: &Path, source: io::Error) -> Self {
+    /// A file or folder cannot be read.
+    pub fn io(path: &Path, source: io::Error) -> Self {
         Self::Io { path: path.to_owned(), source }
     }
 
-    pub(crate) fn file(path: &Path, what: impl Into<String>) -> Self {
+    /// A file does not hold what it should.
+    pub fn file(path: &Path, what: impl Into<String>) -> Self {
         Self::File { path: path.to_owned(), line: None, what: what.into() }
     }
 }
