@@ -3,6 +3,7 @@
 //! [`Mesh`] is a mesh as finite volumes hold it: polygons, each between two cells or between a cell and the outside. [`Field`] is a
 //! quantity on it, by cells or by points. [`Snapshot`] is both, and what a reader has to say of them.
 
+pub mod block;
 pub mod check;
 mod error;
 mod field;
