@@ -15,7 +15,7 @@ pub enum Field<const N: usize> {
 }
 
 /// The fields that a result has, SI.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Fields {
     /// Velocity of the fluid, m/s.
     pub velocity: Option<Field<3>>,

@@ -9,6 +9,7 @@ mod error;
 mod field;
 pub mod geometry;
 mod mesh;
+pub mod openfoam;
 #[cfg(test)]
 mod samples;
 

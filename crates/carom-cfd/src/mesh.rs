@@ -36,7 +36,7 @@ impl Polygons {
 ///
 /// Faces between cells come first, then those of the patches, patch by patch. The corners of a face turn so that its area vector (by the right-hand rule) points
 /// out of its owner. Whoever makes one has checked it: every index is in its range, every boundary face is in one patch.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
     /// Points, m.
     pub points: Vec<[f64; 3]>,

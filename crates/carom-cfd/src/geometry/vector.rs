@@ -29,3 +29,10 @@ pub(crate) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 pub(crate) fn length(a: [f64; 3]) -> f64 {
     dot(a, a).sqrt()
 }
+
+/// A vector of length one, and none where there is no direction.
+#[inline]
+pub(crate) fn unit(a: [f64; 3]) -> Option<[f64; 3]> {
+    let l = length(a);
+    (l > 0.0 && l.is_finite()).then(|| scaled(1.0 / l, a))
+}
