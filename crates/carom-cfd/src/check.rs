@@ -121,6 +121,16 @@ pub fn snapshot(snapshot: &Snapshot) -> Result<(), Broken> {
 pub fn mesh(mesh: &Mesh) -> Result<(), Broken> {
     indices(mesh)?;
     patches(mesh)?;
+    cells(mesh)
+}
+
+/// Refuses faces, points and cells that cannot be used, whatever the patches.
+pub(crate) fn without_patches(mesh: &Mesh) -> Result<(), Broken> {
+    indices(mesh)?;
+    cells(mesh)
+}
+
+fn cells(mesh: &Mesh) -> Result<(), Broken> {
     if let Some((point, at)) = mesh.points.iter().enumerate().find(|(_, x)| x.iter().any(|x| !x.is_finite())) {
         return Err(Broken::Point { point, at: *at });
     }
@@ -178,7 +188,8 @@ fn indices(mesh: &Mesh) -> Result<(), Broken> {
     Ok(())
 }
 
-fn patches(mesh: &Mesh) -> Result<(), Broken> {
+/// Refuses patches that do not hold the boundary.
+pub(crate) fn patches(mesh: &Mesh) -> Result<(), Broken> {
     let mut next = mesh.inner_faces();
     for patch in &mesh.patches {
         let bad = |why: String| Err(Broken::Patch { patch: patch.name.clone(), why });

@@ -91,8 +91,9 @@ pub fn read(case: &Path, options: &Options) -> Result<Snapshot, Error> {
         cells: whole.cells,
         patches: Vec::new(),
     };
+    check::without_patches(&mesh)?;
     mesh.patches = boundary::patches(&raw, &mesh, case)?;
-    check::mesh(&mesh)?;
+    check::patches(&mesh)?;
     let fields = match &time {
         Some(time) => all_fields(&layout, &time.name, &options.names, &mesh, &joints, &mut notes)?,
         None => Fields::default(),
@@ -164,21 +165,19 @@ fn all_fields(
     let mut fields = Fields { others: fields::names(layout, time)?, ..Fields::default() };
     let there = fields.others.clone();
     let mut used = Vec::new();
-    let mut name = |asked: &Option<String>, usual: &str| match asked {
-        Some(name) if !there.contains(name) => Err(Error::Missing {
-            path: layout.store.first().join(time),
-            kind: "field",
-            name: name.clone(),
-            there: there.clone(),
-        }),
-        Some(name) => {
-            used.push(name.clone());
-            Ok(Some(name.clone()))
+    let root = layout.store.first().join(time);
+    let mut name = |asked: &Option<String>, usual: &str| {
+        let name = asked.as_deref().unwrap_or(usual);
+        match (files::is_there(&root.join(name)), asked) {
+            (true, _) => {
+                used.push(name.to_owned());
+                Ok(Some(name.to_owned()))
+            }
+            (false, None) => Ok(None),
+            (false, Some(_)) => {
+                Err(Error::Missing { path: root.clone(), kind: "field", name: name.into(), there: there.clone() })
+            }
         }
-        None => Ok(there.contains(&usual.to_owned()).then(|| {
-            used.push(usual.to_owned());
-            usual.to_owned()
-        })),
     };
     let velocity = name(&names.velocity, "U")?;
     let scalars: [(Option<String>, &[[i8; 4]]); 6] = [

@@ -111,7 +111,11 @@ impl<'a> Dict<'a> {
 
     /// What a name stands for: that of the last entry of this name, else of the last pattern that fits.
     pub(super) fn find<'d>(&'d self, name: &[u8], scopes: &Scopes<'d, 'a>) -> Option<&'d Value<'a>> {
-        self.named(name, scopes, 0).or_else(|| self.fitting(name))
+        self.find_in_chain(name, scopes, 0)
+    }
+
+    fn find_in_chain<'d>(&'d self, name: &[u8], scopes: &Scopes<'d, 'a>, chain: usize) -> Option<&'d Value<'a>> {
+        self.named(name, scopes, chain).or_else(|| self.fitting(name))
     }
 
     /// That of the last entry of this very name.
@@ -279,14 +283,13 @@ fn lookup<'d, 'a>(name: &[u8], scopes: &Scopes<'d, 'a>, chain: usize) -> Option<
     };
     let mut parts = rest.split(split);
     let first = parts.next()?;
-    let within = |dict: &'d Dict<'a>, name: &[u8]| dict.named(name, scopes, chain).or_else(|| dict.fitting(name));
     let mut found = match outward {
         // a name that holds dots itself comes before a path of names
-        true => scopes.iter().rev().find_map(|d| within(d, rest)).or_else(|| {
-            let found = scopes.iter().rev().find_map(|d| within(d, first))?;
+        true => innermost(rest, scopes, chain).or_else(|| {
+            let found = innermost(first, scopes, chain)?;
             parts.clone().try_fold(found, |value, part| step(value, part, scopes, chain))
         })?,
-        false => within(scopes.last()?, first)?,
+        false => scopes.last()?.find_in_chain(first, scopes, chain)?,
     };
     if !outward {
         for part in parts {
@@ -296,9 +299,15 @@ fn lookup<'d, 'a>(name: &[u8], scopes: &Scopes<'d, 'a>, chain: usize) -> Option<
     Some(found)
 }
 
+/// What a name is in the innermost scope that has it; patterns, which fit many, come after the names of all.
+fn innermost<'d, 'a>(name: &[u8], scopes: &Scopes<'d, 'a>, chain: usize) -> Option<&'d Value<'a>> {
+    let named = scopes.iter().rev().find_map(|d| d.named(name, scopes, chain));
+    named.or_else(|| scopes.iter().rev().find_map(|d| d.fitting(name)))
+}
+
 fn step<'d, 'a>(value: &'d Value<'a>, name: &[u8], scopes: &Scopes<'d, 'a>, chain: usize) -> Option<&'d Value<'a>> {
     match value {
-        Value::Dict(dict) => dict.named(name, scopes, chain).or_else(|| dict.fitting(name)),
+        Value::Dict(dict) => dict.find_in_chain(name, scopes, chain),
         Value::Text(_) => None,
     }
 }
