@@ -59,7 +59,7 @@ fn entries_by_name_group_and_pattern_with_macros() {
         {
             ".*" { type fixedValue; value $internalField; }
             "out.*" { type fixedValue; value $.speedy; speedy uniform (7 7 7); }
-            inlet { $..inflow; }
+            inlet { $...inflow; }
             solid { type fixedValue; value nonuniform List<vector> 6{(0 0 5)}; }
         }"#,
     )
