@@ -10,6 +10,7 @@ mod field;
 pub mod geometry;
 mod mesh;
 pub mod openfoam;
+pub mod quality;
 #[cfg(test)]
 mod samples;
 

@@ -36,6 +36,23 @@ pub fn tetrahedron_quality(apex: [f64; 3], a: [f64; 3], b: [f64; 3], c: [f64; 3]
     if six == 0.0 || !radius.is_finite() { 0.0 } else { six / 6.0 / regular.max(f64::MIN_POSITIVE) }
 }
 
+impl BasePoints {
+    /// Of the cells on both sides of a face, those whose tetrahedra on it are turned or flat.
+    pub fn inverted_cells(&self, mesh: &Mesh, cell_centres: &[[f64; 3]], face: u32) -> Vec<u32> {
+        let (f, corners) = (face as usize, mesh.faces.get(face as usize));
+        let turned: Vec<u32> = corners.iter().rev().copied().collect();
+        let n = corners.len();
+        let base = self.base[f] as usize;
+        let own = worst_of_fan(&mesh.points, corners, base, cell_centres[mesh.owner[f] as usize], None);
+        let own = (own <= LEAST).then_some(mesh.owner[f]);
+        let other =
+            mesh.neighbour.get(f).copied().filter(|&c| {
+                worst_of_fan(&mesh.points, &turned, n - 1 - base, cell_centres[c as usize], None) <= LEAST
+            });
+        own.into_iter().chain(other).collect()
+    }
+}
+
 /// The base points of all faces.
 pub fn base_points(mesh: &Mesh, cell_centres: &[[f64; 3]]) -> BasePoints {
     let mut found = BasePoints { base: Vec::with_capacity(mesh.faces.len()), inverted: Vec::new() };

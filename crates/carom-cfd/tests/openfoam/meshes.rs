@@ -1,6 +1,7 @@
 //! Patches and geometry, against what OpenFOAM says of the same meshes.
 
 use carom_cfd::geometry::{cell_centres_and_volumes, face_centres_and_areas};
+use carom_cfd::quality::quality;
 use carom_cfd::{Carry, PatchKind};
 
 use super::*;
@@ -89,4 +90,36 @@ fn a_mesh_that_moves_is_the_newest_up_to_the_time() {
     assert_eq!(latest(&case).mesh.points[0], [-0.01, 0.0, 0.0]);
     let options = Options { time: Some("1".into()), ..Options::default() };
     assert_eq!(read(&case, &options).unwrap().mesh.points[0], [0.0; 3]);
+}
+
+#[test]
+fn quality_is_what_check_mesh_says() {
+    // its least and largest volume, total, non-orthogonality and its mean, skewness, aspect ratio
+    for (name, said) in [
+        ("block", [0.00019074532, 0.00042635856, 0.0036, 2.8624052, 1.4972271, 0.10329879, 2.623745]),
+        ("wedge", [0.003621375, 0.010864125, 0.0434565, 0.0, 0.0, 0.33081006, 1.334668]),
+        ("ring", [0.013360162, 0.018704227, 0.096193165, 0.0, 0.0, 0.16489267, 1.158485]),
+        ("ami", [0.16666667, 0.25, 2.0, 0.0, 0.0, 0.0, 3.0]),
+    ] {
+        let q = quality(&latest(&stored(name)).mesh);
+        let got = [
+            q.smallest.value,
+            q.largest.value,
+            q.volume,
+            q.non_orthogonality.value,
+            q.mean_non_orthogonality,
+            q.skewness.value,
+            q.aspect_ratio.value,
+        ];
+        for (i, (x, said)) in got.iter().zip(said).enumerate() {
+            // eight digits; an angle of zero is known to the root of rounding
+            assert!(
+                (x - said).abs() <= 6e-8 * said + if i == 3 || i == 4 { 2e-6 } else { 1e-12 },
+                "{name} {i}: {x} {said}"
+            );
+        }
+        assert_eq!((q.inverted.count, q.negative.count), (0, 0));
+    }
+    let kinds = quality(&latest(&stored("wedge")).mesh).kinds;
+    assert_eq!((kinds.hexahedra, kinds.prisms), (3, 3));
 }
