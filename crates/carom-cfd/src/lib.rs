@@ -13,6 +13,7 @@ pub mod openfoam;
 pub mod quality;
 #[cfg(test)]
 mod samples;
+pub mod vtk;
 
 pub use error::Error;
 pub use field::{Field, Fields};

@@ -1,9 +1,8 @@
 //! The pieces of a grid, put together: they may overlap, must leave no node out, and have the same arrays.
 
 use super::super::arrays::{Chosen, Described, cells};
-use super::{Extent, Fields, Form, arrays, child, evenly};
+use super::{Extent, Fields, Form, Node, arrays, child, evenly};
 use crate::flow::Table;
-use roxmltree::Node;
 
 /// The pieces of a grid that have been read.
 pub(super) struct Pieces {

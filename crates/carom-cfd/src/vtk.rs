@@ -1,0 +1,162 @@
+//! Finished results as VTK holds them.
+//!
+//! Read are
+//!
+//! - XML: unstructured grids (`.vtu`), in pieces (`.pvtu`), and blocks of such (`.vtm`, `.vtpc`, `.vtpd`) with surfaces (`.vtp`, or `.vtu` of polygons) that name
+//!   parts of the boundary. ASCII, or binary inline or appended, raw or base64, plain or compressed with zlib or LZ4, either byte order,
+//!   headers of 32 or 64 bits.
+//! - Legacy files (`.vtk`) of an unstructured grid, ASCII or binary, versions 2 to 5.1.
+//!
+//! What a file is, its first bytes tell, not its name.
+//!
+//! **Cells**: tetrahedra, hexahedra, voxels, wedges, pyramids, prisms of five and six sides, and polyhedra in both forms (a stream of faces, and lists since VTK
+//! 9.4). Quadratic, Lagrange and Bézier cells are taken by their corners, which come first in all of them. Cells of points and lines
+//! are of no use and left out. Wherever faces turn, the result's turn out of their cells.
+//!
+//! **The boundary**: a block's polygons lie on the outer faces whose corners have exactly the same coordinates, and the patch is called as the block.
+//! Polygons beside the solid cells of a grid do the same; [`Options::patches`] names the cell array whose values are the patches'
+//! names. All other outer faces are one patch, `boundary`. VTK knows no kinds of patches: all are [`PatchKind::Plain`](crate::PatchKind::Plain).
+//!
+//! **Fields**: of points, or else of cells. Velocity by the names `U`, `velocity`, `Velocity`, or as [`Options::fields`] says; then `k`, `epsilon`, `omega`, `rho` or
+//! `density`, `T` or `temperature`, `p` or `pressure` and what programs call them. On the boundary a field of cells has the values of the blocks, or else the cells'.
+//!
+//! **Refused**, with the place: faces of three cells, cells that overlap or are open, points that are no places, NaN and infinity in a field that is used, cells and
+//! points that are hidden or not valid. Copies of other pieces' cells (`vtkGhostType`) are left out. Not read: LZMA, strips of triangles, convex
+//! point sets, structured and hyper-tree grids, files of polygons alone (plane results).
+
+mod agree;
+mod assemble;
+mod cells;
+mod data;
+mod files;
+mod grid;
+mod join;
+pub mod legacy;
+mod number;
+mod old;
+mod patches;
+mod piece;
+mod sides;
+mod turn;
+pub mod xml;
+
+pub use number::{Number, Stored};
+
+use crate::{Error, Snapshot, check};
+use cells::is_solid;
+use data::QUANTITIES;
+use files::{Load, needs_solids};
+use grid::Grid;
+use patches::Surface;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// What a reader is told.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Options {
+    /// Names of arrays by what they are: `velocity`, `k`, `epsilon`, `omega`, `density`, `temperature`, `pressure`. The usual names are found without.
+    pub fields: BTreeMap<String, String>,
+    /// The cell array of the polygons beside solid cells, whose values name patches.
+    pub patches: Option<String>,
+}
+
+/// Reads a file and those that it names.
+///
+/// # Errors
+/// What cannot be read, or cannot be used: see [above](self).
+pub fn read(file: &Path, options: &Options) -> Result<Snapshot, Error> {
+    let load = |path: &Path| carom_table::file::read_regular(path, u64::MAX).map_err(|e| Error::io(path, e));
+    snapshot(load(file)?, file, &load, options)
+}
+
+/// Reads what is in a file, which may name no others.
+///
+/// # Errors
+/// What cannot be read, or cannot be used: see [above](self).
+pub fn from_bytes(file: Vec<u8>, options: &Options) -> Result<Snapshot, Error> {
+    let none = |path: &Path| Err(Error::file(path, "another file is named, and only one was given"));
+    snapshot(file, Path::new("VTK"), &none, options)
+}
+
+fn snapshot(bytes: Vec<u8>, path: &Path, load: Load, options: &Options) -> Result<Snapshot, Error> {
+    if let Some(name) = options.fields.keys().find(|n| QUANTITIES.iter().all(|q| q.0 != **n)) {
+        let there = QUANTITIES.map(|q| q.0.to_owned()).to_vec();
+        return Err(Error::Missing { path: path.to_owned(), kind: "quantity", name: name.clone(), there });
+    }
+    let fail = |what: String| Error::file(path, what);
+    let mut notes = Vec::new();
+    let found = files::all(&bytes, path, load, options)?;
+    drop(bytes);
+    needs_solids(&found, path)?;
+    if found.blocks.len() > 1 {
+        let names = found.blocks.join(", ");
+        notes.push(format!("the blocks {names} are one mesh: they hang together where points coincide exactly"));
+    }
+    let grid = join::join(found.solids, &mut notes).map_err(fail)?;
+    if grid.data.ghosts > 0 {
+        notes.push(format!(
+            "{} cells are copies of another piece's (vtkGhostType): they are left out",
+            grid.data.ghosts
+        ));
+    }
+    let solids: Vec<u32> = (0..grid.kinds.len() as u32).filter(|c| is_solid(grid.kinds[*c as usize])).collect();
+    let sides = sides::Sides::of(&grid, &solids, &mut notes).map_err(fail)?;
+    let blocks = found.surfaces.iter().map(|(name, grid)| Surface {
+        name: name.clone(),
+        grid,
+        cells: (0..grid.kinds.len() as u32).collect(),
+        among_cells: false,
+    });
+    let mut surfaces: Vec<Surface> = blocks.collect();
+    surfaces.extend(beside(&grid, surfaces.is_empty(), path, options, &mut notes)?);
+    let boundary = patches::boundary(&grid.points, &sides, &surfaces, &mut notes).map_err(fail)?;
+    let (mesh, kept) = assemble::mesh(&grid, &sides, &boundary);
+    drop(sides);
+    let kept = kept.as_deref();
+    let sources =
+        assemble::Sources { grid: &grid, solids: &solids, kept, surfaces: &surfaces, boundary: &boundary, mesh: &mesh };
+    let fields = sources.fields(&mut notes);
+    let time = found.time.or(grid.time).map(|t| t.to_string());
+    let snapshot = Snapshot { mesh, fields, time, notes };
+    check::snapshot(&snapshot)?;
+    Ok(snapshot)
+}
+
+/// The polygons beside the solid cells of a grid, by the patches that their values name.
+fn beside<'a>(
+    grid: &'a Grid,
+    alone: bool,
+    path: &Path,
+    options: &Options,
+    notes: &mut Vec<String>,
+) -> Result<Vec<Surface<'a>>, Error> {
+    let flat: Vec<u32> = (0..grid.kinds.len()).filter(|c| grid.polygon(*c).is_some()).map(|c| c as u32).collect();
+    let mut surfaces: Vec<Surface> = Vec::new();
+    let mut add = |name: String, cell: u32| match surfaces.iter_mut().find(|s| s.name == name) {
+        Some(surface) => surface.cells.push(cell),
+        None => surfaces.push(Surface { name, grid, cells: vec![cell], among_cells: true }),
+    };
+    match (&options.patches, &grid.data.labels) {
+        (Some(array), None) if alone => {
+            let (path, there) = (path.to_owned(), grid.data.others.clone());
+            return Err(Error::Missing { path, kind: "cell array", name: array.clone(), there });
+        }
+        (Some(array), Some(_)) if flat.is_empty() => {
+            let what =
+                format!("no 2-D cells lie beside the solid ones: values of {array} could name patches on such only");
+            return Err(Error::file(path, what));
+        }
+        (_, Some(labels)) => flat.iter().for_each(|c| add(labels.name(*c as usize).unwrap_or_default(), *c)),
+        (_, None) if alone && !flat.is_empty() => {
+            notes.push(format!(
+                "{} 2-D cells lie beside the solid ones: patches = \"...\" names the cell array whose values are the patches' names",
+                flat.len()
+            ));
+        }
+        _ => {}
+    }
+    Ok(surfaces)
+}
+
+#[cfg(test)]
+mod tests;

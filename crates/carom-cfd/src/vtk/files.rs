@@ -1,0 +1,140 @@
+//! What a file holds, with the files that it names.
+
+use super::grid::Grid;
+use super::xml::{Form, Node, Parts, child};
+use super::{Options, old, piece};
+use crate::Error;
+use memchr::memmem;
+use std::path::{Path, PathBuf};
+
+/// Reads a file that another names.
+pub(super) type Load<'a> = &'a dyn Fn(&Path) -> Result<Vec<u8>, Error>;
+
+/// What was found.
+#[derive(Default)]
+pub(super) struct Found {
+    /// Grids with solid cells.
+    pub solids: Vec<Grid>,
+    /// Names of the blocks of solid cells.
+    pub blocks: Vec<String>,
+    /// Grids of polygons alone, with the names of their blocks.
+    pub surfaces: Vec<(String, Grid)>,
+    pub time: Option<f64>,
+}
+
+/// All that a file holds.
+pub(super) fn all(bytes: &[u8], path: &Path, load: Load, options: &Options) -> Result<Found, Error> {
+    let mut found = Found::default();
+    let composite = matches!(
+        root_type(bytes),
+        Some("vtkMultiBlockDataSet" | "vtkPartitionedDataSetCollection" | "vtkPartitionedDataSet")
+    );
+    if !composite {
+        found.take(None, grids(bytes, path, load, options)?);
+        return Ok(found);
+    }
+    let fail = |what: String| Error::file(path, what);
+    let parts = Parts::of(bytes).map_err(fail)?;
+    let document = parts.document().map_err(fail)?;
+    let root = document.root_element();
+    found.time = Form::of(root, &parts).ok().and_then(|form| piece::time(root, &form));
+    let body = root.attribute("type").and_then(|kind| child(root, kind)).ok_or_else(|| fail("no blocks".to_owned()))?;
+    for set in body.descendants().filter(|n| n.has_tag_name("DataSet")) {
+        // blocks may be empty
+        let Some(file) = set.attribute("file").filter(|f| !f.trim().is_empty()) else { continue };
+        let path = beside(path, file);
+        let grids = grids(&load(&path)?, &path, load, options)?;
+        found.take(Some(&block_name(set, file)), grids);
+    }
+    Ok(found)
+}
+
+impl Found {
+    /// Takes the grids of a block, or of a file without blocks.
+    fn take(&mut self, block: Option<&str>, grids: Vec<Grid>) {
+        let solid = grids.iter().any(Grid::has_solids) || grids.iter().any(|g| g.data.ghosts > 0);
+        if let Some(name) = block.filter(|_| solid) {
+            self.blocks.push(name.to_owned());
+        }
+        for grid in grids {
+            if solid || block.is_none() {
+                self.solids.push(grid);
+            } else if let Some(name) = block {
+                self.surfaces.push((name.to_owned(), grid));
+            }
+        }
+    }
+}
+
+/// A block's own name, or that of the nearest block around it, or the file's.
+fn block_name(set: Node, file: &str) -> String {
+    let named = set.ancestors().find_map(|n| n.attribute("name").map(str::trim).filter(|n| !n.is_empty()));
+    let stem = || Path::new(file).file_stem().map(|s| s.to_string_lossy().into_owned());
+    named.map(str::to_owned).or_else(stem).unwrap_or_default()
+}
+
+fn beside(path: &Path, name: &str) -> PathBuf {
+    path.parent().unwrap_or(Path::new("")).join(name.trim())
+}
+
+/// The grids of a file without blocks.
+fn grids(bytes: &[u8], path: &Path, load: Load, options: &Options) -> Result<Vec<Grid>, Error> {
+    let fail = |what: String| Error::file(path, what);
+    let Some(kind) = root_type(bytes) else {
+        if bytes.starts_with(b"# vtk") {
+            return Ok(vec![old::grid(bytes, path, options)?]);
+        }
+        return Err(fail(
+            "not a VTK file: it holds no VTKFile element and does not begin with \"# vtk DataFile\"".into(),
+        ));
+    };
+    let (whole, part) = match kind {
+        "PUnstructuredGrid" => ("PUnstructuredGrid", "UnstructuredGrid"),
+        "PPolyData" => ("PPolyData", "PolyData"),
+        _ => return piece::grids(bytes, path, options),
+    };
+    let parts = Parts::of(bytes).map_err(fail)?;
+    let document = parts.document().map_err(fail)?;
+    let body = child(document.root_element(), whole).ok_or_else(|| fail(format!("no {whole}")))?;
+    let mut grids = Vec::new();
+    for node in body.children().filter(|n| n.has_tag_name("Piece")) {
+        let source = node.attribute("Source").ok_or_else(|| fail("a Piece without Source".into()))?;
+        let path = beside(path, source);
+        let bytes = load(&path)?;
+        if root_type(&bytes) != Some(part) {
+            return Err(Error::file(&path, format!("a piece must be of type {part}, as XML")));
+        }
+        grids.extend(piece::grids(&bytes, &path, options)?);
+    }
+    Ok(grids)
+}
+
+/// The type that a VTK XML file says it is of; of any other file nothing.
+fn root_type(bytes: &[u8]) -> Option<&str> {
+    let head = &bytes[..bytes.len().min(1 << 16)];
+    let tag = &head[memmem::find(head, b"<VTKFile")?..];
+    let tag = std::str::from_utf8(&tag[..memchr::memchr(b'>', tag)?]).ok()?;
+    let at = tag.match_indices("type").find(|(i, _)| tag[..*i].ends_with(char::is_whitespace))?.0;
+    let rest = tag[at + 4..].trim_start().strip_prefix('=')?.trim_start();
+    let quote = rest.chars().next().filter(|c| matches!(c, '"' | '\''))?;
+    rest[1..].split(quote).next()
+}
+
+/// Refuses a file without solid cells, and says what it has.
+pub(super) fn needs_solids(found: &Found, path: &Path) -> Result<(), Error> {
+    if found.solids.iter().any(Grid::has_solids) {
+        return Ok(());
+    }
+    let flat = |g: &Grid| (0..g.kinds.len()).filter(|c| g.polygon(*c).is_some()).count();
+    let count: usize = found.solids.iter().chain(found.surfaces.iter().map(|s| &s.1)).map(flat).sum();
+    let ghosts: usize = found.solids.iter().map(|g| g.data.ghosts).sum();
+    let what = match (count, ghosts) {
+        (0, 0) => "no cells".to_owned(),
+        (0, _) => format!("no cells but {ghosts} copies of another piece's"),
+        _ => format!(
+            "{count} polygons and no solid cells: a plane or axisymmetric result is made solid first (ParaView: Linear or Rotational Extrusion), \
+             or read as OpenFOAM's"
+        ),
+    };
+    Err(Error::file(path, what))
+}

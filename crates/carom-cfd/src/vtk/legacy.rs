@@ -1,0 +1,286 @@
+//! Legacy VTK files (The VTK User's Guide, "VTK File Formats": simple legacy formats, versions 2 to 5): words, numbers, and where the
+//! arrays of points and cells are.
+//!
+//! Read here rather than by a library: the one there is for Rust (vtkio 0.6) rests on releases of its parsers that the
+//! compiler announces it will reject.
+
+use super::number::{Number, Stored};
+use carom_table::{clipped, quoted};
+use std::str::FromStr;
+
+/// What is wrong with a file, and where.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Problem {
+    /// How far the file was read.
+    pub byte: usize,
+    /// What is wrong there.
+    pub what: String,
+}
+
+/// Where an array of the file is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Array<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// Numbers for each point or cell.
+    pub components: usize,
+    /// Numbers in all.
+    pub count: usize,
+    kind: &'a str,
+    at: usize,
+}
+
+/// Reads a file from its first byte to its last.
+#[derive(Debug)]
+pub struct Reader<'a> {
+    file: &'a [u8],
+    at: usize,
+    binary: bool,
+    major: u32,
+}
+
+impl<'a> Reader<'a> {
+    /// Begins with the first three lines.
+    pub fn new(file: &'a [u8]) -> Result<Self, Problem> {
+        let mut reader = Self { file, at: 0, binary: false, major: 0 };
+        let Some(version) = reader.line().and_then(|l| l.strip_prefix("# vtk DataFile")) else {
+            return Err(reader.error("not a legacy VTK file: it must begin with \"# vtk DataFile\""));
+        };
+        let number = version.trim().trim_start_matches("Version").trim().split('.').next();
+        reader.major = number.and_then(|n| n.parse().ok()).unwrap_or_default();
+        reader.line();
+        reader.binary = match reader.line() {
+            Some(l) if l.eq_ignore_ascii_case("ascii") => false,
+            Some(l) if l.eq_ignore_ascii_case("binary") => true,
+            _ => return Err(reader.error("the third line must be ASCII or BINARY")),
+        };
+        Ok(reader)
+    }
+
+    /// The first number of the format's version, 0 where it names none.
+    pub fn major(&self) -> u32 {
+        self.major
+    }
+
+    /// How many bytes the file has.
+    pub fn size(&self) -> usize {
+        self.file.len()
+    }
+
+    /// What is wrong here.
+    pub fn error(&self, what: impl Into<String>) -> Problem {
+        Problem { byte: self.at, what: what.into() }
+    }
+
+    /// The rest of the line, trimmed; `None` at the end of the file.
+    pub fn line(&mut self) -> Option<&'a str> {
+        let rest = self.file.get(self.at..).filter(|r| !r.is_empty())?;
+        let end = memchr::memchr(b'\n', rest).unwrap_or(rest.len());
+        self.at += (end + 1).min(rest.len());
+        Some(std::str::from_utf8(&rest[..end]).unwrap_or("").trim())
+    }
+
+    /// The words of the next line that is not empty.
+    pub fn words(&mut self) -> Option<Vec<&'a str>> {
+        loop {
+            let line = self.line()?;
+            if !line.is_empty() {
+                return Some(line.split_whitespace().collect());
+            }
+        }
+    }
+
+    /// The words of the next line that is not empty, which is not passed over.
+    pub fn peek(&mut self) -> Vec<&'a str> {
+        let here = self.at;
+        let words = self.words().unwrap_or_default();
+        self.at = here;
+        words
+    }
+
+    /// The next line's words after `keyword`.
+    pub fn expect(&mut self, keyword: &str, count: usize) -> Result<Vec<&'a str>, Problem> {
+        let words = self.words().unwrap_or_default();
+        match words.split_first() {
+            Some((first, rest)) if first.eq_ignore_ascii_case(keyword) && rest.len() >= count => Ok(rest.to_vec()),
+            _ => Err(self.error(format!("{} where {keyword} should be", quoted(&words.join(" "))))),
+        }
+    }
+
+    /// A number in a word.
+    pub fn parse<T: FromStr>(&self, word: &str) -> Result<T, Problem> {
+        word.parse().map_err(|_| self.error(format!("{} is not a number", quoted(word))))
+    }
+
+    /// Where every array of the points and of the cells is.
+    pub fn data(&mut self, nodes: usize, cells: usize) -> Result<[Vec<Array<'a>>; 2], Problem> {
+        self.skip_metadata();
+        let (mut found, mut which) = ([Vec::new(), Vec::new()], None);
+        while let Some(words) = self.words() {
+            let keyword = words[0].to_ascii_uppercase();
+            let rest = words.get(1..).unwrap_or_default();
+            match (keyword.as_str(), rest) {
+                ("POINT_DATA" | "CELL_DATA", [count, ..]) => {
+                    let of_cells = keyword == "CELL_DATA";
+                    let (what, wanted) = if of_cells { ("cells", cells) } else { ("points", nodes) };
+                    if self.parse::<usize>(count)? != wanted {
+                        let count = clipped(count);
+                        return Err(self.error(format!("{keyword} for {count} {what} on a grid of {wanted}")));
+                    }
+                    which = Some((usize::from(of_cells), wanted));
+                    continue;
+                }
+                ("METADATA", _) => {
+                    while self.line().is_some_and(|l| !l.is_empty()) {}
+                    continue;
+                }
+                _ => {}
+            }
+            // a field before any data is of the file as a whole
+            let (place, tuples) = match (which, keyword.as_str()) {
+                (Some(which), _) => which,
+                (None, "FIELD") => (2, 0),
+                (None, _) => {
+                    return Err(self.error(format!("{} where POINT_DATA should be", quoted(&words.join(" ")))));
+                }
+            };
+            let mut arrays = self.arrays(&keyword, rest, tuples)?;
+            arrays.retain(|a| tuples.checked_mul(a.components) == Some(a.count));
+            if let Some(found) = found.get_mut(place) {
+                found.extend(arrays);
+            }
+        }
+        if which.is_none() {
+            return Err(self.error("the file ends where POINT_DATA should be"));
+        }
+        Ok(found)
+    }
+
+    /// The arrays that a line announces.
+    fn arrays(&mut self, keyword: &str, rest: &[&'a str], tuples: usize) -> Result<Vec<Array<'a>>, Problem> {
+        Ok(match (keyword, rest) {
+            ("VECTORS" | "NORMALS", [name, kind]) => vec![self.array(name, 3, tuples, kind)?],
+            ("TENSORS", [name, kind]) => vec![self.array(name, 9, tuples, kind)?],
+            ("GLOBAL_IDS" | "PEDIGREE_IDS", [name, kind]) => vec![self.array(name, 1, tuples, kind)?],
+            ("TEXTURE_COORDINATES", [name, components, kind]) => {
+                let components = self.parse(components)?;
+                vec![self.array(name, components, tuples, kind)?]
+            }
+            ("SCALARS", [name, kind, rest @ ..]) => {
+                let components = rest.first().map_or(Ok(1), |n| self.parse(n))?;
+                self.expect("LOOKUP_TABLE", 1)?;
+                vec![self.array(name, components, tuples, kind)?]
+            }
+            ("FIELD", [_, count]) => self.field(count)?,
+            (other, _) => return Err(self.error(format!("{} is not known in point data", quoted(other)))),
+        })
+    }
+
+    /// The arrays of a field.
+    pub fn field(&mut self, count: &str) -> Result<Vec<Array<'a>>, Problem> {
+        let mut arrays = Vec::new();
+        for _ in 0..self.parse::<usize>(count)? {
+            self.skip_metadata();
+            let words = self.words().unwrap_or_default();
+            let [name, components, tuples, kind] = words[..] else {
+                return Err(self.error("a field array needs a name, components, tuples and a type"));
+            };
+            let (components, tuples) = (self.parse(components)?, self.parse(tuples)?);
+            arrays.push(self.array(name, components, tuples, kind)?);
+        }
+        self.skip_metadata();
+        Ok(arrays)
+    }
+
+    /// An array from here on, passed over.
+    fn array(&mut self, name: &'a str, components: usize, tuples: usize, kind: &'a str) -> Result<Array<'a>, Problem> {
+        let count = components.checked_mul(tuples).ok_or_else(|| self.error("an array too large"))?;
+        let array = Array { name, components, count, kind, at: self.at };
+        self.pass(count, kind)?;
+        Ok(array)
+    }
+
+    /// The values of an array.
+    pub fn decoded<T: Number>(&mut self, array: &Array) -> Result<Vec<T>, Problem> {
+        self.at = array.at;
+        self.values(array.count, array.kind)
+    }
+
+    /// The values of an array that was passed over, from where the reader comes back to where it is.
+    pub fn again<T: Number>(&mut self, array: &Array) -> Result<Vec<T>, Problem> {
+        let here = self.at;
+        let values = self.decoded(array);
+        self.at = here;
+        values
+    }
+
+    /// Passes over blocks that newer versions put after arrays, up to an empty line.
+    pub fn skip_metadata(&mut self) {
+        loop {
+            let here = self.at;
+            match self.words() {
+                Some(words) if words[0] == "METADATA" => while self.line().is_some_and(|l| !l.is_empty()) {},
+                _ => {
+                    self.at = here;
+                    return;
+                }
+            }
+        }
+    }
+
+    /// So many numbers of a VTK type; binary ones are big-endian.
+    pub fn values<T: Number>(&mut self, count: usize, kind: &str) -> Result<Vec<T>, Problem> {
+        self.at_least(count)?;
+        if self.binary {
+            let (stored, bytes) = self.binary(count, kind)?;
+            return Ok(stored.decode(bytes, true));
+        }
+        let mut values = Vec::new();
+        let all = self.ascii(count, |reader, word| {
+            let value = T::parsed(word).ok_or_else(|| reader.error(format!("{} is not a number", quoted(word))))?;
+            values.push(value);
+            Ok(())
+        });
+        all.map(|()| values)
+    }
+
+    /// Passes over so many numbers of a VTK type.
+    fn pass(&mut self, count: usize, kind: &str) -> Result<(), Problem> {
+        self.at_least(count)?;
+        if self.binary { self.binary(count, kind).map(drop) } else { self.ascii(count, |_, _| Ok(())) }
+    }
+
+    fn at_least(&self, count: usize) -> Result<(), Problem> {
+        // in binary files, eight bits may be a byte
+        if count / 8 > self.file.len().saturating_sub(self.at) {
+            return Err(self.error(format!("the file ends before {count} values")));
+        }
+        Ok(())
+    }
+
+    fn ascii(&mut self, count: usize, mut take: impl FnMut(&Self, &str) -> Result<(), Problem>) -> Result<(), Problem> {
+        let mut met = 0;
+        while met < count {
+            let Some(line) = self.line() else {
+                return Err(self.error(format!("the file ends after {met} of {count} values")));
+            };
+            for word in line.split_ascii_whitespace() {
+                met += 1;
+                take(self, word)?;
+            }
+        }
+        if met > count { Err(self.error(format!("more than {count} values"))) } else { Ok(()) }
+    }
+
+    fn binary(&mut self, count: usize, kind: &str) -> Result<(Stored, &'a [u8]), Problem> {
+        let Some(stored) = Stored::legacy(kind) else {
+            return Err(self.error(format!("binary values of type {}, which is not read", quoted(kind))));
+        };
+        let end = count.checked_mul(stored.width()).and_then(|n| n.checked_add(self.at));
+        let Some(bytes) = end.and_then(|end| self.file.get(self.at..end)) else {
+            return Err(self.error(format!("the file ends before {count} values")));
+        };
+        self.at += bytes.len();
+        Ok((stored, bytes))
+    }
+}
