@@ -9,6 +9,7 @@ mod error;
 mod field;
 pub mod geometry;
 mod mesh;
+mod names;
 pub mod openfoam;
 pub mod quality;
 #[cfg(test)]
@@ -18,6 +19,7 @@ pub mod vtk;
 pub use error::Error;
 pub use field::{Field, Fields};
 pub use mesh::{Carry, Mesh, Patch, PatchKind, Polygons};
+pub use names::Names;
 
 /// A result at one time.
 #[derive(Clone, Debug)]

@@ -27,6 +27,7 @@ mod stitch;
 
 use std::path::Path;
 
+pub use crate::Names;
 use crate::{Error, Fields, Mesh, Snapshot, check};
 use fields::Asked;
 use layout::{Layout, Store, Time};
@@ -38,25 +39,6 @@ pub struct Options {
     pub time: Option<String>,
     /// Names of the fields, where they are not the usual ones.
     pub names: Names,
-}
-
-/// Names of fields. One that is named must be there; one that is not is taken from the file of its usual name, if there is one.
-#[derive(Clone, Debug, Default)]
-pub struct Names {
-    /// Velocity; usually `U`.
-    pub velocity: Option<String>,
-    /// Turbulent kinetic energy; `k`.
-    pub k: Option<String>,
-    /// Its dissipation rate; `epsilon`.
-    pub epsilon: Option<String>,
-    /// Its specific dissipation rate; `omega`.
-    pub omega: Option<String>,
-    /// Density; `rho`.
-    pub density: Option<String>,
-    /// Temperature; `T`.
-    pub temperature: Option<String>,
-    /// Pressure; `p`.
-    pub pressure: Option<String>,
 }
 
 /// Whether a folder looks like a case: it has a mesh in it, whole or in parts.

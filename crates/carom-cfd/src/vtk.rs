@@ -17,7 +17,7 @@
 //! Polygons beside the solid cells of a grid do the same; [`Options::patches`] names the cell array whose values are the patches'
 //! names. All other outer faces are one patch, `boundary`. VTK knows no kinds of patches: all are [`PatchKind::Plain`](crate::PatchKind::Plain).
 //!
-//! **Fields**: of points, or else of cells. Velocity by the names `U`, `velocity`, `Velocity`, or as [`Options::fields`] says; then `k`, `epsilon`, `omega`, `rho` or
+//! **Fields**: of points, or else of cells. Velocity by the names `U`, `velocity`, `Velocity`, or as [`Options::names`] says; then `k`, `epsilon`, `omega`, `rho` or
 //! `density`, `T` or `temperature`, `p` or `pressure` and what programs call them. On the boundary a field of cells has the values of the blocks, or else the cells'.
 //!
 //! **Refused**, with the place: faces of three cells, cells that overlap or are open, points that are no places, NaN and infinity in a field that is used, cells and
@@ -42,20 +42,18 @@ pub mod xml;
 
 pub use number::{Number, Stored};
 
-use crate::{Error, Snapshot, check};
+use crate::{Error, Names, Snapshot, check};
 use cells::is_solid;
-use data::QUANTITIES;
 use files::{Load, needs_solids};
 use grid::Grid;
 use patches::Surface;
-use std::collections::BTreeMap;
 use std::path::Path;
 
 /// What a reader is told.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Options {
-    /// Names of arrays by what they are: `velocity`, `k`, `epsilon`, `omega`, `density`, `temperature`, `pressure`. The usual names are found without.
-    pub fields: BTreeMap<String, String>,
+    /// Names of the arrays, where they are not the usual ones.
+    pub names: Names,
     /// The cell array of the polygons beside solid cells, whose values name patches.
     pub patches: Option<String>,
 }
@@ -79,10 +77,6 @@ pub fn from_bytes(file: Vec<u8>, options: &Options) -> Result<Snapshot, Error> {
 }
 
 fn snapshot(bytes: Vec<u8>, path: &Path, load: Load, options: &Options) -> Result<Snapshot, Error> {
-    if let Some(name) = options.fields.keys().find(|n| QUANTITIES.iter().all(|q| q.0 != **n)) {
-        let there = QUANTITIES.map(|q| q.0.to_owned()).to_vec();
-        return Err(Error::Missing { path: path.to_owned(), kind: "quantity", name: name.clone(), there });
-    }
     let fail = |what: String| Error::file(path, what);
     let mut notes = Vec::new();
     let found = files::all(&bytes, path, load, options)?;

@@ -9,7 +9,7 @@ use std::path::Path;
 /// How many quantities there are.
 pub(super) const COUNT: usize = 7;
 
-/// A quantity: its name in options, how many components it has, and the names that programs write, the likeliest first.
+/// A quantity, in the order of [`Names::all`](crate::Names::all): its name, how many components it has, and the names that programs write, the likeliest first.
 pub(super) const QUANTITIES: [(&str, usize, &[&str]); COUNT] = [
     ("velocity", 3, &["u", "velocity", "velocity_field"]),
     (
@@ -145,7 +145,7 @@ fn find(
     options: &Options,
     solid: bool,
 ) -> Result<Option<(bool, usize)>, Error> {
-    let (key, components, aliases) = QUANTITIES[quantity];
+    let (_, components, aliases) = QUANTITIES[quantity];
     // of a surface, only what its faces hold is of use
     let lists: &[usize] = if solid { &[0, 1] } else { &[1] };
     let place = |fits: &dyn Fn(&str) -> bool| {
@@ -162,11 +162,12 @@ fn find(
         there.dedup();
         Error::Missing { path: path.to_owned(), kind: "field", name: name.to_owned(), there }
     };
-    if let Some(name) = options.fields.get(key) {
+    let names = options.names.all();
+    if let Some(name) = names[quantity] {
         let found = place(&|n| n == name);
         return if found.is_none() && solid { Err(missing(name)) } else { Ok(found) };
     }
-    let taken = |name: &str| options.fields.values().any(|n| n == name);
+    let taken = |name: &str| names.contains(&Some(name));
     let found = aliases.iter().find_map(|alias| place(&|n| plain(n) == *alias && !taken(n)));
     if found.is_none() && solid && quantity == 0 { Err(missing("U")) } else { Ok(found) }
 }

@@ -176,7 +176,7 @@ fn thin_walls_keep_their_sides() {
     let cells: [(u8, &[u32]); 4] = [(12, &ALL), (12, &other), (9, &[8, 12, 15, 11]), (9, &[1, 2, 6, 5])];
     let zone = "<DataArray type=\"Int32\" Name=\"zone\">0 0 20 10</DataArray>";
     let text = xml(&points, &cells, ["", zone]);
-    let snapshot = from_bytes(text.into_bytes(), &told(Some("zone"), &[])).unwrap();
+    let snapshot = from_bytes(text.into_bytes(), &told(Some("zone"))).unwrap();
     let mesh = &snapshot.mesh;
     assert_eq!((mesh.inner_faces(), patches(mesh)), (0, vec![("20", 1), ("10", 1), ("boundary", 10)]));
     // each side is its own cell's, whose outside the polygon faced
@@ -207,6 +207,6 @@ fn bytes_by_chance_never_panic() {
         if cut {
             bytes.truncate(changes[0].0.index(bytes.len()));
         }
-        let _ = from_bytes(bytes, &told(Some("zone"), &[]));
+        let _ = from_bytes(bytes, &told(Some("zone")));
     });
 }

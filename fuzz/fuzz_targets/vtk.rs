@@ -1,4 +1,4 @@
-//! Any bytes as a VTK file of a mesh: a mesh that holds together with finite fields, or a refusal. `cargo fuzz run cfd_vtk`
+//! Any bytes as a VTK file of a mesh: a mesh that holds together with finite fields, or a refusal. `cargo fuzz run vtk`
 #![no_main]
 
 use carom_cfd::vtk::{Options, from_bytes};
