@@ -5,7 +5,7 @@
 use carom::random::{Purpose, Stream};
 use carom_track::domain::{AnyDomain, ContactAt, Wall};
 use carom_track::dynamics::Dynamics;
-use carom_track::flow::{Flow, Fluid};
+use carom_track::flow::Flow;
 use carom_track::force::{Drag, Forces};
 use carom_track::geometry::{Room, Shape};
 use carom_track::record::{End, ImpactRecord, Sink};
@@ -61,7 +61,7 @@ fn closed_box(c: &mut Criterion) {
     let law = carom::spec::parse_law(law).expect("a law").compile(carom::material::Library::builtin()).expect("a law");
     let behaviors = [Behavior::Law(vec![law])];
     let forces = Forces { drag: Drag::SchillerNaumann, ..Forces::default() };
-    let dynamics = Dynamics { fluid: Fluid::default(), forces, random_walk: None, brownian: false };
+    let dynamics = Dynamics { forces, ..Dynamics::default() };
     let settings =
         Settings { tolerance: 1e-5, until: 0.05, settle_height: SettleHeight::DEFAULT, max_steps: 1_000_000, seed: 1 };
     let tracker = Tracker { domain: &domain, dynamics: &dynamics, behaviors: &behaviors, settings };

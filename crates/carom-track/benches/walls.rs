@@ -6,7 +6,7 @@
 
 use carom_track::domain::{AnyDomain, ContactAt, Wall};
 use carom_track::dynamics::Dynamics;
-use carom_track::flow::{Flow, Fluid};
+use carom_track::flow::Flow;
 use carom_track::force::{Drag, Forces};
 use carom_track::geometry::{Cylinder, Mesh, Room, Shape, Triangle};
 use carom_track::random::{Purpose, Stream};
@@ -171,7 +171,7 @@ fn fly(wanted: f64) {
     let law = carom::spec::parse_law(law).expect("a law").compile(carom::material::Library::builtin()).expect("a law");
     let behaviors = [Behavior::Law(vec![law])];
     let forces = Forces { drag: Drag::None, ..Forces::default() };
-    let dynamics = Dynamics { fluid: Fluid::default(), forces, random_walk: None, brownian: false };
+    let dynamics = Dynamics { forces, ..Dynamics::default() };
     let settings =
         Settings { tolerance: 1e-5, until: 5.0, settle_height: SettleHeight::DEFAULT, max_steps: 1_000_000, seed: 1 };
     let (mut all, mut number) = (Watch::default(), 0);
@@ -229,7 +229,7 @@ fn main() {
     let law = "normal = \"constant\"\nrestitution = 0.95\ntangential = \"constant\"\ntangential_restitution = 0.95\n";
     let law = carom::spec::parse_law(law).expect("a law").compile(carom::material::Library::builtin()).expect("a law");
     let forces = Forces { drag: Drag::SchillerNaumann, ..Forces::default() };
-    let dynamics = Dynamics { fluid: Fluid::default(), forces, random_walk: None, brownian: false };
+    let dynamics = Dynamics { forces, ..Dynamics::default() };
     let settings =
         Settings { tolerance: 1e-5, until: UNTIL, settle_height: SettleHeight::DEFAULT, max_steps: 1_000_000, seed: 1 };
     let particles: Vec<Particle> = (0..PARTICLES).map(particle).collect();

@@ -86,10 +86,12 @@ impl Case {
         let laws = carom::spec::parse_laws(text)?;
         let files = Files::new(name, text);
         let seed = read.seed.map_or(1, |s| s.0);
-        let (fluid, liquid) = fluid::fluid(read.fluid.as_ref())?;
+        let (fluid, gas) = fluid::fluid(read.fluid.as_ref())?;
         let gradient = read.fluid.as_ref().and_then(|f| f.value.temperature_gradient.as_ref());
         let flow = flow::flow(read.flow.as_ref(), &fluid, &files)?;
-        let dynamics = flow::dynamics(&read.forces, (fluid, liquid), gradient)?;
+        let mut notes = Vec::new();
+        let flow = fluid::in_its_gas(flow, gas, read.flow.as_ref(), &mut notes)?;
+        let dynamics = flow::dynamics(&read.forces, (fluid, gas), gradient, flow.varies_gas())?;
         let injections = read
             .injection
             .iter()
@@ -102,7 +104,6 @@ impl Case {
         countable(&injections)?;
         injection::distinct(read.injection.iter().filter_map(|i| i.value.name.as_ref()), "injection")?;
         injection::distinct(read.wall.iter().map(|w| &w.value.name), "wall")?;
-        let mut notes = Vec::new();
         let walls = read.wall.iter().map(|w| wall::read(w, &files, &mut notes)).collect::<Result<Vec<_>, _>>()?;
         notes.extend(triangles::left_out(read.wall.iter().filter_map(|w| w.value.stl.as_ref()), &files));
         let largest = injections.iter().map(|i| i.largest).fold(0.0, f64::max);

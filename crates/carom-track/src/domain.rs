@@ -35,6 +35,11 @@ pub trait Domain: Sync {
         false
     }
 
+    /// Whether the fluid's answer holds the state of the gas ([`Local::gas`]), which may differ from place to place.
+    fn varies_gas(&self) -> bool {
+        false
+    }
+
     /// Whether there is one piece only, and no step too long for it.
     fn is_one_piece(&self) -> bool {
         false
@@ -150,6 +155,11 @@ impl Domain for Analytic {
     #[inline(always)]
     fn is_uniform(&self) -> bool {
         matches!(self.flow, Flow::Still | Flow::Uniform { .. })
+    }
+
+    #[inline(always)]
+    fn varies_gas(&self) -> bool {
+        self.flow.varies_gas()
     }
 
     #[inline(always)]

@@ -6,7 +6,7 @@
 #![allow(clippy::needless_range_loop, reason = "one index runs through several arrays of lanes or components")]
 
 use crate::domain::Domain;
-use crate::flow::Fluid;
+use crate::flow::{Fluid, Gas, Local};
 use crate::force::{Drag, Eddy, Forces, RandomWalk, Sphere, relaxation_time};
 use crate::integrate::{Lanes, Lanes3, Motion, Rates};
 use crate::vector::{Vec3, add, dot};
@@ -22,6 +22,8 @@ const SHORT: f64 = 1e-4;
 pub struct Dynamics {
     /// The fluid.
     pub fluid: Fluid,
+    /// Which gas it is, where it is one: what its viscosity is elsewhere, if the flow gives its state place by place.
+    pub gas: Option<Gas>,
     /// The deterministic forces.
     pub forces: Forces,
     /// Turbulent dispersion, if any.
@@ -84,15 +86,25 @@ impl<const W: usize> Bodies<W> {
 /// Drag, gravity and buoyancy in air at 24 °C and one atmosphere; nothing random.
 impl Default for Dynamics {
     fn default() -> Self {
-        Self { fluid: Fluid::default(), forces: Forces::default(), random_walk: None, brownian: false }
+        let gas = Some(Gas::Air);
+        Self { fluid: Fluid::default(), gas, forces: Forces::default(), random_walk: None, brownian: false }
     }
 }
 
 impl Dynamics {
-    /// Only drag, gravity and buoyancy.
+    /// Only drag, gravity and buoyancy, in a fluid that is the same everywhere.
     #[inline(always)]
-    pub(crate) fn is_plain(&self) -> bool {
-        self.forces.is_plain() && self.random_walk.is_none()
+    pub(crate) fn is_plain<D: Domain>(&self, domain: &D) -> bool {
+        self.forces.is_plain() && self.random_walk.is_none() && !domain.varies_gas()
+    }
+
+    /// The fluid where it is as `local` says: the run's, unless that gives a state of the gas.
+    #[inline(always)]
+    pub fn fluid_at(&self, local: &Local) -> Fluid {
+        match (self.gas, &local.gas) {
+            (Some(gas), Some(state)) => self.fluid.at(gas, state),
+            _ => self.fluid,
+        }
     }
 
     /// Whether spin changes in flight.
@@ -102,20 +114,25 @@ impl Dynamics {
 
     /// Whether the forces depend on where a sphere is.
     pub fn need_place<D: Domain>(&self, domain: &D) -> bool {
-        !(self.is_plain() && (self.forces.drag == Drag::None || domain.is_uniform()))
+        !(self.is_plain(domain) && (self.forces.drag == Drag::None || domain.is_uniform()))
     }
 
-    /// τ_p of Stokes drag with slip, s; infinite without drag.
+    /// τ_p of Stokes drag with slip in the run's fluid, s; infinite without drag.
     pub fn relaxation_time(&self, sphere: &Sphere) -> f64 {
+        self.relaxation_time_in(&self.fluid, sphere)
+    }
+
+    /// The same in a fluid.
+    pub(crate) fn relaxation_time_in(&self, fluid: &Fluid, sphere: &Sphere) -> f64 {
         match self.forces.drag {
             Drag::None => f64::INFINITY,
-            _ => relaxation_time(&self.fluid, sphere, self.slip(sphere)),
+            _ => relaxation_time(fluid, sphere, self.forces.slip.factor(sphere.diameter, fluid.mean_free_path)),
         }
     }
 
     /// Whether a sphere follows the fluid so closely that its steps should not know by how much
-    /// ([`exponential`](crate::integrate::exponential)). What the steps give is the same on both sides; kicks change within a
-    /// relaxation time, and are stepped as such.
+    /// ([`exponential`](crate::integrate::exponential)), by its relaxation time in the run's fluid, wherever it goes. What the steps give
+    /// is the same on both sides, to the tolerance; kicks change within a relaxation time, and are stepped as such.
     pub fn follows(&self, sphere: &Sphere) -> bool {
         !self.brownian && self.relaxation_time(sphere) < SHORT
     }
@@ -151,7 +168,7 @@ impl Dynamics {
         m: &Motion<W>,
         out: &mut Rates<W>,
     ) {
-        if self.is_plain() {
+        if self.is_plain(domain) {
             self.plain_rates(domain, here, time, bodies, m, out);
         } else {
             for l in 0..W {
@@ -215,7 +232,7 @@ impl Dynamics {
         v: Vec3,
         normal: Vec3,
     ) -> f64 {
-        if !self.is_plain() {
+        if !self.is_plain(domain) {
             return f64::INFINITY;
         }
         let u = domain.velocities(&[here], &[time], &x.map(|c| [c]));
@@ -271,8 +288,8 @@ impl<D: Domain> Work for AllForces<'_, D> {
     #[inline(always)]
     fn run<F: Fma, const LANES: usize>(self, _: F) -> Self::Output {
         let Self { dynamics, domain, place: (here, time, x), sphere, deviates, v, spin } = self;
-        let fluid = &dynamics.fluid;
         let mut local = domain.fluid(here, time, x);
+        let fluid = &dynamics.fluid_at(&local);
         if let (Some(walk), Some(deviates)) = (&dynamics.random_walk, deviates) {
             let gust = walk.fluctuation(deviates, &local, fluid.kinematic_viscosity());
             local.velocity = add(local.velocity, gust);

@@ -81,9 +81,9 @@ fn opening(inside: &str, open: char, close: char) -> Option<usize> {
     None
 }
 
-/// The component of a vector, as in `Velocity[i] (m/s)`.
+/// The component of a vector, as in `Velocity[i] (m/s)`; a capital K is the kelvin.
 fn is_component(inside: &str) -> bool {
-    matches!(inside.to_ascii_lowercase().as_str(), "i" | "j" | "k" | "x" | "y" | "z" | "0" | "1" | "2")
+    inside != "K" && matches!(inside.to_ascii_lowercase().as_str(), "i" | "j" | "k" | "x" | "y" | "z" | "0" | "1" | "2")
 }
 
 const UNITS: [&str; 34] = [

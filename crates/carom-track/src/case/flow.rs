@@ -4,7 +4,7 @@ use super::check::{needed, placed, unknown, word, wrong};
 use super::files::Files;
 use super::text::{FlowText, ForcesText, Si, WallDragText};
 use crate::dynamics::Dynamics;
-use crate::flow::{Channel, Flow, Fluid, Named, Pipe, Profile, RoundJet, SlotJet, Stagnation, Symmetry, Table};
+use crate::flow::{Channel, Flow, Fluid, Gas, Named, Pipe, Profile, RoundJet, SlotJet, Stagnation, Symmetry, Table};
 use crate::force::{Drag, Forces, Life, Model, NearWall, RandomWalk, Slip, Thermophoresis, WallDrag};
 use carom::LawError;
 use carom::spec::At;
@@ -12,7 +12,7 @@ use carom::units::TemperatureGradient;
 use carom_table::quoted;
 
 const KINDS: [&str; 8] = ["still", "uniform", "channel", "pipe", "stagnation", "slot-jet", "round-jet", "table"];
-const COLUMNS: [&str; 9] = ["x", "y", "z", "u", "v", "w", "k", "epsilon", "omega"];
+const COLUMNS: [&str; 11] = ["x", "y", "z", "u", "v", "w", "k", "epsilon", "omega", "T", "rho"];
 const PROFILES: [(&str, Profile); 3] =
     [("plug", Profile::Plug), ("laminar", Profile::Laminar), ("turbulent", Profile::Turbulent)];
 
@@ -121,9 +121,11 @@ fn refuse_others(text: &At<FlowText>, kind: &str) -> Result<(), LawError> {
 /// The forces; without the table, Schiller–Naumann drag, Davies' slip in a gas and no gravity.
 pub(super) fn dynamics(
     text: &ForcesText,
-    (fluid, liquid): (Fluid, bool),
+    (fluid, gas): (Fluid, Option<Gas>),
     gradient: Option<&At<[TemperatureGradient; 3]>>,
+    varies: bool,
 ) -> Result<Dynamics, LawError> {
+    let liquid = gas.is_none();
     const DRAGS: [(&str, Drag); 4] = [
         ("none", Drag::None),
         ("stokes", Drag::Stokes),
@@ -148,27 +150,41 @@ pub(super) fn dynamics(
         rotational_drag: text.rotational_drag.unwrap_or(false),
         pressure_gradient: text.pressure_gradient.unwrap_or(false),
         added_mass: text.added_mass.unwrap_or(false),
-        thermophoresis: thermophoresis(text, liquid, gradient)?,
+        thermophoresis: thermophoresis(text, liquid, gradient, varies)?,
         wall_drag: wall_drag(text, drag)?,
     };
     let brownian = text.brownian.as_ref().is_some_and(|b| b.value);
     if let Some(b) = text.brownian.as_ref().filter(|_| brownian && drag == Drag::None) {
         return Err(wrong(b, "Brownian motion without drag").help("the molecules that kick also drag: give a drag law"));
     }
-    Ok(Dynamics { fluid, forces, random_walk: random_walk(text)?, brownian })
+    if let Some(b) = text.brownian.as_ref().filter(|_| brownian && varies) {
+        return Err(wrong(b, "Brownian motion in a gas whose temperature or density the flow gives")
+            .help("kicks are known of an even gas alone: switch brownian off, or leave T and rho out of the flow"));
+    }
+    Ok(Dynamics { fluid, gas, forces, random_walk: random_walk(text)?, brownian })
 }
 
 fn thermophoresis(
     text: &ForcesText,
     liquid: bool,
     gradient: Option<&At<[TemperatureGradient; 3]>>,
+    varies: bool,
 ) -> Result<Option<Thermophoresis>, LawError> {
     let (text, gradient) = match (&text.thermophoresis, gradient) {
-        (Some(text), Some(gradient)) => (text, gradient),
+        (_, Some(gradient)) if varies => {
+            return Err(wrong(
+                gradient,
+                "two temperature gradients: the flow gives the temperature, and so its gradient",
+            )
+            .help("leave temperature_gradient out, or the temperature out of the flow"));
+        }
+        (Some(text), Some(gradient)) => (text, Some(gradient)),
         (None, None) => return Ok(None),
+        (Some(text), None) if varies => (text, None),
         (Some(text), None) => {
-            return Err(wrong(text, "thermophoresis without a temperature gradient")
-                .help("give temperature_gradient = [\"0 K/m\", \"1e4 K/m\", \"0 K/m\"] in [fluid]"));
+            return Err(wrong(text, "thermophoresis without a temperature gradient").help(
+                "give temperature_gradient = [\"0 K/m\", \"1e4 K/m\", \"0 K/m\"] in [fluid], or a flow with its temperature",
+            ));
         }
         (None, Some(gradient)) => {
             return Err(wrong(gradient, "temperature_gradient acts on nothing")
@@ -180,9 +196,9 @@ fn thermophoresis(
     }
     let conductivity = &text.value.thermal_conductivity;
     let conductivity = super::check::positive(conductivity, "thermal_conductivity", conductivity.value.0)?;
-    let si = gradient.value.si();
-    if !si.iter().all(|c| c.is_finite()) {
-        return Err(wrong(gradient, format!("temperature_gradient is {si:?} K/m")).help("it must be finite"));
+    let si = gradient.map_or([0.0; 3], |g| g.value.si());
+    if let Some(at) = gradient.filter(|_| !si.iter().all(|c| c.is_finite())) {
+        return Err(wrong(at, format!("temperature_gradient is {si:?} K/m")).help("it must be finite"));
     }
     Ok(Some(Thermophoresis { conductivity, gradient: si }))
 }

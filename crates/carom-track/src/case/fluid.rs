@@ -2,7 +2,7 @@
 
 use super::check::{placed, unknown, wrong};
 use super::injection::Injected;
-use super::text::FluidText;
+use super::text::{FlowText, FluidText};
 use crate::dynamics::Dynamics;
 use crate::flow::{Flow, Fluid, Gas, GasState, StateError};
 use crate::force::{Drag, Slip};
@@ -13,15 +13,16 @@ use carom::spec::At;
 /// What a liquid is at where no temperature is given, K.
 const USUAL_TEMPERATURE: f64 = 297.15;
 
-/// The fluid, air at 24 °C and one atmosphere where nothing else is said, and whether it is a liquid.
-pub(super) fn fluid(text: Option<&At<FluidText>>) -> Result<(Fluid, bool), LawError> {
-    let Some(at) = text else { return Ok((Fluid::default(), false)) };
+/// The fluid, air at 24 °C and one atmosphere where nothing else is said, and which gas it is; none of a liquid.
+pub(super) fn fluid(text: Option<&At<FluidText>>) -> Result<(Fluid, Option<Gas>), LawError> {
+    let Some(at) = text else { return Ok((Fluid::default(), Some(Gas::Air))) };
     if at.value.liquid.as_ref().is_some_and(|l| l.value) {
-        return liquid(at).map(|fluid| (fluid, true));
+        return liquid(at).map(|fluid| (fluid, None));
     }
     let text = &at.value;
+    let gas = text.gas.as_ref().map_or(Ok(Gas::Air), gas)?;
     let state = GasState {
-        gas: text.gas.as_ref().map_or(Ok(Gas::Air), gas)?,
+        gas,
         temperature: text.temperature.as_ref().map(|t| t.value.0),
         pressure: text.pressure.as_ref().map(|p| p.value.0),
         humidity: text.humidity.as_ref().map(|h| h.value.0),
@@ -33,7 +34,35 @@ pub(super) fn fluid(text: Option<&At<FluidText>>) -> Result<(Fluid, bool), LawEr
         fluid.mean_free_path = path.value.0;
         fluid.check().map_err(|e| placed(path, e))?;
     }
-    Ok((fluid, false))
+    Ok((fluid, Some(gas)))
+}
+
+/// A flow whose temperatures are those of a gas whose viscosity is known there; of a liquid, they are left out.
+pub(super) fn in_its_gas(
+    flow: Flow,
+    gas: Option<Gas>,
+    text: Option<&At<FlowText>>,
+    notes: &mut Vec<String>,
+) -> Result<Flow, LawError> {
+    let Flow::Table(table) = flow else { return Ok(flow) };
+    let Some([low, high]) = table.temperatures() else { return Ok(Flow::Table(table)) };
+    let Some(gas) = gas else {
+        notes.push(
+            "the table's temperature is left out: a liquid's properties are those of [fluid] everywhere".to_owned(),
+        );
+        return Ok(Flow::Table(table.without_gas()));
+    };
+    let [least, most] = gas.range();
+    if low < least || high > most {
+        let message = format!("the table's temperatures are from {low:.2} K to {high:.2} K");
+        let help = format!(
+            "the viscosity of {} is known from {least} K to {most} K; if they are not in K, name their unit, as in \"T [degC]\"",
+            gas.name()
+        );
+        let span = text.and_then(|t| t.value.file.as_ref()).and_then(|f| f.span.clone());
+        return Err(LawError::new(message).help(help).at(span));
+    }
+    Ok(Flow::Table(table))
 }
 
 fn gas(text: &At<String>) -> Result<Gas, LawError> {

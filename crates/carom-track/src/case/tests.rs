@@ -5,6 +5,7 @@ mod curvature;
 mod fluid;
 mod flux;
 mod forces;
+mod gas;
 mod stl;
 
 const GOOD: &str = r#"
@@ -279,7 +280,7 @@ fn columns_of_a_table_are_named_in_the_case() {
         ("", "no column of u, the velocity along x, among"),
         (
             "columns = { q = \"p\" }",
-            "columns has no \"q\"; it names the columns of x, y, z, u, v, w, k, epsilon, omega",
+            "columns has no \"q\"; it names the columns of x, y, z, u, v, w, k, epsilon, omega, T, rho",
         ),
         ("columns = { u = \"nothing\" }", "no column \"nothing\"; there are \"Lage [mm]\""),
         ("columns = { u = \"UMean_0\", k = \"p\" }", "k needs epsilon"),

@@ -95,15 +95,16 @@ impl Gas {
     }
 
     fn properties(self) -> Properties {
+        let s = self.sutherland();
         match self {
             // 287.05 is R/M of dry air, 28.96546 g/mol (CIPM-2007, doi:10.1088/0026-1394/45/2/004)
-            Self::Air => Properties { specific: 287.05, sutherland: [1.458e-6, 110.4], range: [170.0, 1900.0] },
-            Self::Nitrogen => Properties::new(28.0134e-3, [273.0, 1.663e-5], 107.0, [120.0, 800.0]),
-            Self::Oxygen => Properties::new(31.9988e-3, [273.0, 1.919e-5], 139.0, [150.0, 1500.0]),
-            Self::Argon => Properties::new(39.948e-3, [273.0, 2.125e-5], 144.0, [120.0, 1000.0]),
-            Self::CarbonDioxide => Properties::new(44.0095e-3, [273.0, 1.370e-5], 222.0, [190.0, 500.0]),
-            Self::Helium => Properties::new(4.002_602e-3, [298.15, 1.9825e-5], 79.4, [200.0, 600.0]),
-            Self::Hydrogen => Properties::new(2.015_88e-3, [273.0, 8.411e-6], 97.0, [200.0, 800.0]),
+            Self::Air => Properties { specific: 287.05, sutherland: [1.458e-6, s], range: [170.0, 1900.0] },
+            Self::Nitrogen => Properties::new(28.0134e-3, [273.0, 1.663e-5], s, [120.0, 800.0]),
+            Self::Oxygen => Properties::new(31.9988e-3, [273.0, 1.919e-5], s, [150.0, 1500.0]),
+            Self::Argon => Properties::new(39.948e-3, [273.0, 2.125e-5], s, [120.0, 1000.0]),
+            Self::CarbonDioxide => Properties::new(44.0095e-3, [273.0, 1.370e-5], s, [190.0, 500.0]),
+            Self::Helium => Properties::new(4.002_602e-3, [298.15, 1.9825e-5], s, [200.0, 600.0]),
+            Self::Hydrogen => Properties::new(2.015_88e-3, [273.0, 8.411e-6], s, [200.0, 800.0]),
         }
     }
 
@@ -116,6 +117,20 @@ impl Gas {
     pub fn viscosity(self, temperature: f64) -> f64 {
         let [c, s] = self.properties().sutherland;
         c * temperature * temperature.sqrt() / (temperature + s)
+    }
+
+    /// S of Sutherland's law, K.
+    #[inline(always)]
+    pub fn sutherland(self) -> f64 {
+        match self {
+            Self::Air => 110.4,
+            Self::Nitrogen => 107.0,
+            Self::Oxygen => 139.0,
+            Self::Argon => 144.0,
+            Self::CarbonDioxide => 222.0,
+            Self::Helium => 79.4,
+            Self::Hydrogen => 97.0,
+        }
     }
 
     /// Temperatures between which its viscosity is good, K.

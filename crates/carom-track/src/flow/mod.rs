@@ -9,6 +9,7 @@ mod fluid;
 mod gas;
 mod humid;
 mod jet;
+mod local_gas;
 mod piece;
 mod pipe;
 mod profile;
@@ -21,6 +22,7 @@ pub use fluid::Fluid;
 pub(crate) use gas::mean_free_path;
 pub use gas::{Gas, GasState, StateError};
 pub use jet::SlotJet;
+pub use local_gas::LocalGas;
 pub use piece::{Exit, Piece};
 pub use pipe::Pipe;
 pub use profile::Profile;
@@ -52,6 +54,8 @@ pub struct Local {
     pub friction_velocity: f64,
     /// The nearest wall that is met, where a force asks for it.
     pub wall: Option<crate::force::wall_drag::Nearest>,
+    /// The gas's state here, where the flow gives one; where it gives none, the run's holds everywhere.
+    pub gas: Option<LocalGas>,
 }
 
 impl Local {
@@ -67,6 +71,7 @@ impl Local {
             wall_normal: [0.0; 3],
             friction_velocity: 0.0,
             wall: None,
+            gas: None,
         }
     }
 
@@ -235,6 +240,12 @@ impl Flow {
             }
         }
         u
+    }
+
+    /// Whether it gives the gas's state, place by place.
+    #[inline(always)]
+    pub fn varies_gas(&self) -> bool {
+        matches!(self, Self::Table(f) if f.has_gas())
     }
 
     /// Whether it knows the friction velocity of its walls.

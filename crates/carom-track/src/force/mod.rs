@@ -73,7 +73,7 @@ pub struct Forces {
 pub struct Thermophoresis {
     /// Thermal conductivity of the spheres, W/(m K).
     pub conductivity: f64,
-    /// The gas's temperature gradient, K/m, the same everywhere.
+    /// The gas's temperature gradient, K/m, the same everywhere; where the flow gives the gas's state, its own gradient acts.
     pub gradient: [f64; 3],
 }
 
@@ -123,7 +123,8 @@ impl Forces {
             || self.wall_drag.is_some())
     }
 
-    /// dv/dt and dω/dt of a sphere at velocity `v` (m/s) and spin (rad/s) where the fluid is as `local` says.
+    /// dv/dt and dω/dt of a sphere at velocity `v` (m/s) and spin (rad/s) where the fluid is as `local` says, its properties there being
+    /// `fluid`'s.
     ///
     /// With added mass the equation of motion is solved for dv/dt. `local.velocity` may hold a turbulent fluctuation.
     #[inline(always)]
@@ -144,7 +145,8 @@ impl Forces {
             _ => a = add(a, scale(relative, drag)),
         }
         if let Some(t) = &self.thermophoresis {
-            a = add(a, thermophoresis::acceleration(fluid, sphere, t.conductivity, fluid.temperature, t.gradient));
+            let gradient = local.gas.map_or(t.gradient, |gas| gas.temperature_gradient);
+            a = add(a, thermophoresis::acceleration(fluid, sphere, t.conductivity, fluid.temperature, gradient));
         }
         if self.saffman {
             a = add(a, saffman::acceleration(fluid, sphere, relative, local.vorticity()));

@@ -6,7 +6,7 @@
 use super::Walk;
 use super::crew::{Crew, motion_of};
 use crate::domain::Domain;
-use crate::flow::Local;
+use crate::flow::{Fluid, Local};
 use crate::force::{Eddy, RandomWalk, Surroundings};
 use crate::random::{Purpose, Stream};
 use crate::vector::{Vec3, add, norm, sub};
@@ -56,6 +56,16 @@ impl<D: Domain> Walk<'_, D> {
         self.dynamics.random_walk.is_some() || self.dynamics.brownian
     }
 
+    /// The fluid's properties at a place: the run's, unless the flow gives its state there.
+    #[inline(always)]
+    pub(super) fn properties(&self, here: D::Here, time: f64, x: Vec3) -> Fluid {
+        if self.domain.varies_gas() {
+            self.dynamics.fluid_at(&self.domain.fluid(here, time, x))
+        } else {
+            self.dynamics.fluid
+        }
+    }
+
     /// Whether eddies change during their lives.
     #[inline(always)]
     pub(super) fn drifts(&self) -> bool {
@@ -99,9 +109,10 @@ impl<D: Domain> Walk<'_, D> {
     /// Ages the eddy; whether another one was met.
     fn renew_eddy<const W: usize>(&self, walk: &RandomWalk, crew: &mut Crew<W, D::Here>, l: usize, step: f64) -> bool {
         let (x, v, _) = motion_of(&crew.motion, l);
-        let nu = self.dynamics.fluid.kinematic_viscosity();
-        let tau = self.dynamics.relaxation_time(&crew.bodies.sphere[l]);
         let (piece, time) = (crew.here[l], crew.time[l]);
+        let properties = self.properties(piece, time, x);
+        let nu = properties.kinematic_viscosity();
+        let tau = self.dynamics.relaxation_time_in(&properties, &crew.bodies.sphere[l]);
         let fluid = |x| self.domain.fluid(piece, time, x);
         let here = || run_scalar(Around { walk, fluid, x, nu, tau });
         let lane = &mut crew.lanes[l];

@@ -267,9 +267,10 @@ impl<D: Domain> Walk<'_, D> {
     /// The acceleration with which eddies of the usual strength lift a sphere off a wall, m/s².
     fn eddies_lift(&self, (here, time): (D::Here, f64), body: &Bodies<1>, x: Vec3, normal: Vec3) -> f64 {
         let Some(walk) = &self.dynamics.random_walk else { return 0.0 };
-        let gust =
-            walk.fluctuation(normal, &self.domain.fluid(here, time, x), self.dynamics.fluid.kinematic_viscosity());
-        dot(gust, normal).max(0.0) * body.drag_rate[0]
+        let local = self.domain.fluid(here, time, x);
+        let fluid = self.dynamics.fluid_at(&local);
+        let gust = walk.fluctuation(normal, &local, fluid.kinematic_viscosity());
+        dot(gust, normal).max(0.0) * (1.0 / self.dynamics.relaxation_time_in(&fluid, &body.sphere[0]))
     }
 
     /// k T per mass, m²/s².

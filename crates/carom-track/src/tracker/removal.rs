@@ -25,7 +25,8 @@ impl<D: Domain> Walk<'_, D> {
         let behavior = self.behaviors.get(hit.wall)?;
         let Behavior::Removal(_, removal) = behavior else { return None };
         let particle = &crew.lanes[l].particle;
-        let fluid = Fluid { density: self.dynamics.fluid.density, viscosity: self.dynamics.fluid.viscosity };
+        let here = self.properties(crew.here[l], crew.time[l], hit.meeting.position);
+        let fluid = Fluid { density: here.density, viscosity: here.viscosity };
         let held = law_of(behavior, particle.injection)?.removal(particle.diameter, &fluid).ok()??;
         let flow = || self.domain.fluid(crew.here[l], crew.time[l], hit.meeting.position).friction_velocity;
         let speed = removal.friction_velocity.unwrap_or_else(flow);

@@ -60,7 +60,7 @@ fn rough_bounce(restitution: f64, angle: f64) -> Behavior {
 
 fn dynamics(drag: Drag) -> Dynamics {
     let forces = Forces { gravity: [0.0, -G, 0.0], buoyancy: drag != Drag::None, drag, ..Forces::default() };
-    Dynamics { fluid: Fluid::default(), forces, random_walk: None, brownian: false }
+    Dynamics { forces, ..Dynamics::default() }
 }
 
 fn settings() -> Settings {

@@ -40,7 +40,7 @@ impl<D: Domain> Walk<'_, D> {
             return true;
         }
         if self.dynamics.need_place(self.domain)
-            || !self.dynamics.is_plain()
+            || !self.dynamics.is_plain(self.domain)
             || (lasts.is_finite() && crew.lanes[l].trace)
         {
             return false;

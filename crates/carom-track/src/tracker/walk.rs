@@ -211,7 +211,7 @@ impl<D: Domain> Walk<'_, D> {
         if !crew.stale.contains(&true) {
             return;
         }
-        if self.dynamics.is_plain() {
+        if self.dynamics.is_plain(self.domain) {
             self.dynamics.rates(self.domain, &crew.here, &crew.time, &crew.bodies, &crew.motion, &mut crew.rates);
         } else {
             for l in 0..W {

@@ -1,8 +1,8 @@
 //! Which arrays of a VTK file are used, chosen by name before any is read, and how they become a table.
 
-use super::columns::{Validity, alias};
+use super::columns::{DENSITY_ALONE, Validity, alias};
 use super::holes::fill;
-use super::{Node, Table};
+use super::{Given, Row, Table};
 use carom_table::{clipped, quoted};
 
 /// An array as its file describes it.
@@ -21,6 +21,8 @@ pub(super) struct Chosen {
     /// ε, or ω where that is said.
     rate: Option<usize>,
     by_frequency: bool,
+    temperature: Option<usize>,
+    density: Option<usize>,
     masks: Vec<(usize, Validity)>,
     notes: Vec<String>,
     /// Whether the data are of cells.
@@ -35,9 +37,10 @@ impl Chosen {
             chosen.notes.push("its data are of cells: their values hold at the middles".to_owned());
         }
         let scalar = |key: &str| {
+            let own = |a: &Described| if key == "T" { a.name == key } else { a.name.eq_ignore_ascii_case(key) };
             arrays
                 .iter()
-                .position(|a| a.components == 1 && a.name.eq_ignore_ascii_case(key))
+                .position(|a| a.components == 1 && own(a))
                 .or_else(|| arrays.iter().position(|a| a.components == 1 && alias(&a.name) == Some(key)))
         };
         let (k, epsilon, omega) = (scalar("k"), scalar("epsilon"), scalar("omega"));
@@ -47,6 +50,10 @@ impl Chosen {
             }
             (None, None) => {}
             _ => chosen.notes.push("turbulence is left out: k and epsilon (or omega) are wanted together".to_owned()),
+        }
+        (chosen.temperature, chosen.density) = (scalar("T"), scalar("rho"));
+        if chosen.temperature.is_none() && chosen.density.take().is_some() {
+            chosen.notes.push(DENSITY_ALONE.to_owned());
         }
         let masks = arrays.iter().enumerate().filter(|(_, a)| a.components == 1);
         chosen.masks = masks.filter_map(|(i, a)| Some((i, Validity::of(&a.name, cells)?))).collect();
@@ -64,8 +71,8 @@ impl Chosen {
     /// The arrays to read.
     pub fn used(&self) -> Vec<usize> {
         let velocity = self.velocity.iter().flatten().map(|(array, _)| *array);
-        let mut used: Vec<usize> =
-            velocity.chain(self.k).chain(self.rate).chain(self.masks.iter().map(|m| m.0)).collect();
+        let scalars = [self.k, self.rate, self.temperature, self.density].into_iter().flatten();
+        let mut used: Vec<usize> = velocity.chain(scalars).chain(self.masks.iter().map(|m| m.0)).collect();
         used.sort_unstable();
         used.dedup();
         used
@@ -96,7 +103,7 @@ impl Chosen {
                 .unwrap_or(f64::NAN)
         };
         let all = size[0] * size[1] * size[2];
-        let (mut nodes, mut valid): (Vec<Node>, Vec<bool>) = (Vec::with_capacity(all), Vec::with_capacity(all));
+        let (mut nodes, mut valid): (Vec<Row>, Vec<bool>) = (Vec::with_capacity(all), Vec::with_capacity(all));
         for i in 0..size[0] {
             for j in 0..size[1] {
                 for l in 0..size[2] {
@@ -105,7 +112,7 @@ impl Chosen {
                         && hidden.is_none_or(|h| h.get(n) != Some(&true));
                     valid.push(holds);
                     if !holds {
-                        nodes.push(Node::default());
+                        nodes.push(Row::default());
                         continue;
                     }
                     let [u, v, w] = self.velocity.map(|c| c.map_or(0.0, |(array, component)| of(array, n, component)));
@@ -113,7 +120,10 @@ impl Chosen {
                     let rate = self.rate.map_or(0.0, |array| of(array, n, 0));
                     // ε = β* k ω (Wilcox, Turbulence Modeling for CFD), β* = 0.09
                     let epsilon = if self.by_frequency { 0.09 * k * rate } else { rate };
-                    if let Some(bad) = [u, v, w, k, epsilon].iter().find(|c| !c.is_finite()) {
+                    let [temperature, density] =
+                        [self.temperature, self.density].map(|given| given.map_or(1.0, |array| of(array, n, 0)));
+                    let node = [u, v, w, k, epsilon, temperature, density];
+                    if let Some(bad) = node.iter().find(|c| !c.is_finite()) {
                         return Err(format!(
                             "{bad} at node ({i}, {j}, {l}), which no mask leaves out: NaN or infinity is no value"
                         ));
@@ -121,12 +131,21 @@ impl Chosen {
                     if k < 0.0 || epsilon < 0.0 {
                         return Err(format!("{} is negative somewhere", if k < 0.0 { "k" } else { "epsilon" }));
                     }
-                    nodes.push([u, v, w, k, epsilon]);
+                    if temperature <= 0.0 || density <= 0.0 {
+                        let which = if temperature <= 0.0 { "the temperature" } else { "the density" };
+                        return Err(format!("{which} is not positive somewhere: K and kg/m3 are wanted"));
+                    }
+                    nodes.push(node);
                 }
             }
         }
         self.notes.extend(fill(size, &mut nodes, &mut valid)?);
-        Ok(Table::new(axes, nodes, self.k.is_some()).noting(self.notes))
+        let given = Given {
+            turbulence: self.k.is_some(),
+            temperature: self.temperature.is_some(),
+            density: self.density.is_some(),
+        };
+        Ok(Table::new(axes, &nodes, given).noting(self.notes))
     }
 }
 

@@ -1,15 +1,15 @@
 //! Which column of a table is what, by the names that programs write.
 
-use super::TableError;
-use carom::units::{Dissipation, Frequency, Length, SpecificEnergy, Speed, UnitError};
+use super::{DENSITY, Given, TEMPERATURE, TableError};
+use carom::units::{Density, Dissipation, Frequency, Length, SpecificEnergy, Speed, Temperature, UnitError};
 use carom_table::{Heading, Sheet, clipped};
 use std::collections::BTreeMap;
 
-/// Columns as a case names them: `x`, `y`, `z`, `u`, `v`, `w`, `k`, `epsilon` or `omega` to what stands in the header.
+/// Columns as a case names them: `x`, `y`, `z`, `u`, `v`, `w`, `k`, `epsilon` or `omega`, `T`, `rho` to what stands in the header.
 pub type Named = BTreeMap<String, String>;
 
 /// What may be named, the names that programs write for it, and the dimension.
-const KNOWN: [(&str, &[&str]); 9] = [
+const KNOWN: [(&str, &[&str]); 11] = [
     (
         "x",
         &[
@@ -121,12 +121,20 @@ const KNOWN: [(&str, &[&str]); 9] = [
     ("k", &["tke", "turb_kinetic_energy", "turbulent_kinetic_energy", "turbulence_kinetic_energy"]),
     ("epsilon", &["eps", "ep", "turb_diss_rate", "turbulent_dissipation_rate", "turbulence_eddy_dissipation"]),
     ("omega", &["om", "specific_diss_rate", "specific_dissipation_rate", "turbulence_eddy_frequency"]),
+    ("T", &["temperature", "static_temperature", "temp"]),
+    ("rho", &["density"]),
 ];
 
 /// What an array or a column of that name is.
 pub(super) fn alias(name: &str) -> Option<&'static str> {
-    let plain = Heading::of(name).name;
-    KNOWN.iter().find(|(key, others)| *key == plain || others.contains(&plain.as_str())).map(|(key, _)| *key)
+    let heading = Heading::of(name);
+    KNOWN.iter().find(|(key, others)| is(&heading, key, others)).map(|(key, _)| *key)
+}
+
+/// Whether a heading is a quantity's. A small t is the time.
+fn is(heading: &Heading, key: &str, others: &[&str]) -> bool {
+    let own = if key == "T" { heading.name == "t" && heading.written.starts_with('T') } else { heading.name == key };
+    own || others.contains(&heading.name.as_str())
 }
 
 /// What a column holds.
@@ -134,7 +142,7 @@ pub(super) fn alias(name: &str) -> Option<&'static str> {
 pub(super) enum Quantity {
     /// A coordinate.
     Place(usize),
-    /// u, v, w, k or ε (ω in its place).
+    /// u, v, w, k or ε (ω in its place), T, ρ.
     Value(usize),
 }
 
@@ -144,8 +152,9 @@ pub(super) struct Found {
     pub column: usize,
     pub written: String,
     pub quantity: Quantity,
-    /// What brings its values to SI units.
+    /// What brings its values to SI units: times the first, plus the second.
     pub factor: f64,
+    pub offset: f64,
 }
 
 impl Found {
@@ -205,8 +214,7 @@ impl Mask {
 pub(super) struct Columns {
     pub found: Vec<Found>,
     pub masks: Vec<Mask>,
-    /// Whether k and ε are there.
-    pub turbulent: bool,
+    pub given: Given,
     /// Whether ω stands in ε's place.
     pub by_frequency: bool,
     /// What is left out.
@@ -216,7 +224,7 @@ pub(super) struct Columns {
 impl Columns {
     /// Whether a name is one of a table's columns.
     pub fn knows(name: &str, named: &Named) -> bool {
-        let alias = KNOWN.iter().any(|(key, others)| *key == name || others.contains(&name));
+        let alias = KNOWN.iter().any(|(key, others)| key.eq_ignore_ascii_case(name) || others.contains(&name));
         alias || named.values().any(|written| Heading::of(written).name == name)
     }
 
@@ -228,8 +236,7 @@ impl Columns {
                 Some(written) => Some(as_named(headings, key, written)?),
                 None => {
                     let taken = |i: usize| named.values().any(|w| same(&headings[i], w));
-                    let is = |name: &str| name == key || aliases.contains(&name);
-                    let fits = |i: &usize| is(&headings[*i].name) && !taken(*i);
+                    let fits = |i: &usize| is(&headings[*i], key, aliases) && !taken(*i);
                     let mut all = (0..headings.len()).filter(fits);
                     let first = all.next();
                     if let (Some(a), Some(b)) = (first, all.next()) {
@@ -245,7 +252,7 @@ impl Columns {
                 return Err(TableError::OneColumn { keys: [KNOWN[other].0, key] });
             }
         }
-        let [.., u, _, _, k, epsilon, omega] = places;
+        let [.., u, _, _, k, epsilon, omega, temperature, density] = places;
         if u.is_none() {
             let all: Vec<String> = headings.iter().map(|h| format!("\"{}\"", clipped(&h.written))).take(20).collect();
             return Err(TableError::NoVelocity { line: sheet.line(), columns: all.join(", ") });
@@ -257,7 +264,15 @@ impl Columns {
         if !turbulent && (told("k") || told("epsilon") || told("omega")) {
             return Err(TableError::HalfTurbulent);
         }
-        let mut columns = Self { found: Vec::new(), masks: Vec::new(), turbulent, by_frequency, notes: Vec::new() };
+        if told("rho") && temperature.is_none() {
+            return Err(TableError::DensityAlone);
+        }
+        let given = Given {
+            turbulence: turbulent,
+            temperature: temperature.is_some(),
+            density: temperature.is_some() && density.is_some(),
+        };
+        let mut columns = Self { found: Vec::new(), masks: Vec::new(), given, by_frequency, notes: Vec::new() };
         let mut used = vec![false; headings.len()];
         for (index, place) in places.into_iter().enumerate() {
             let Some(column) = place else { continue };
@@ -267,20 +282,22 @@ impl Columns {
                 6 if turbulent => Quantity::Value(3),
                 7 if turbulent => Quantity::Value(4),
                 8 if by_frequency => Quantity::Value(4),
+                9 => Quantity::Value(TEMPERATURE),
+                10 if given.density => Quantity::Value(DENSITY),
                 _ => continue,
             };
             let heading = &headings[column];
-            let given = named.get(KNOWN[index].0).and_then(|written| Heading::of(written).unit);
-            if let (Some(a), Some(b)) = (&heading.unit, &given)
+            let told = named.get(KNOWN[index].0).and_then(|written| Heading::of(written).unit);
+            if let (Some(a), Some(b)) = (&heading.unit, &told)
                 && a != b
             {
                 return Err(TableError::TwoUnits { a: heading.written.clone(), b: b.clone() });
             }
             let remark = if index < 3 { sheet.remark("length unit") } else { None };
-            let unit = given.as_deref().or(heading.unit.as_deref()).or(remark);
-            let factor = factor(index, unit)
+            let unit = told.as_deref().or(heading.unit.as_deref()).or(remark);
+            let (factor, offset) = to_si(index, unit)
                 .map_err(|e| TableError::Unit { column: heading.written.clone(), what: e.to_string() })?;
-            columns.found.push(Found { column, written: heading.written.clone(), quantity, factor });
+            columns.found.push(Found { column, written: heading.written.clone(), quantity, factor, offset });
             used[column] = true;
         }
         for (column, heading) in headings.iter().enumerate() {
@@ -292,11 +309,17 @@ impl Columns {
         if (k.is_some() || rate.is_some()) && !turbulent {
             notes.push("turbulence is left out: k and epsilon (or omega) are wanted together".to_owned());
         }
+        if density.is_some() && !given.density {
+            notes.push(DENSITY_ALONE.to_owned());
+        }
         notes.extend(left_out(headings, &used));
         columns.notes = notes;
         Ok(columns)
     }
 }
+
+/// What to say of a density without a temperature.
+pub(super) const DENSITY_ALONE: &str = "density is left out: it is wanted together with the temperature";
 
 /// Whether a heading is what a case calls it.
 fn same(heading: &Heading, written: &str) -> bool {
@@ -333,16 +356,32 @@ fn left_out(headings: &[Heading], used: &[bool]) -> Option<String> {
     (!names.is_empty()).then(|| format!("not used: {}{rest}", names.join(", ")))
 }
 
-/// What brings values in a unit to SI.
-fn factor(index: usize, unit: Option<&str>) -> Result<f64, UnitError> {
-    let Some(unit) = unit else { return Ok(1.0) };
+/// What brings values in a unit to SI: a factor, and what is then added.
+fn to_si(index: usize, unit: Option<&str>) -> Result<(f64, f64), UnitError> {
+    let Some(unit) = unit else { return Ok((1.0, 0.0)) };
     // STAR-CCM+ writes J/kg-s for J/(kg s)
-    let one = format!("1 {}", unit.replace("kg-s", "kg/s"));
-    Ok(match index {
+    let of = |n: &str| format!("{n} {}", unit.replace("kg-s", "kg/s"));
+    let one = of("1");
+    let factor = match index {
         0..3 => one.parse::<Length>()?.0,
         3..6 => one.parse::<Speed>()?.0,
         6 => one.parse::<SpecificEnergy>()?.0,
         7 => one.parse::<Dissipation>()?.0,
-        _ => one.parse::<Frequency>()?.0,
-    })
+        8 => one.parse::<Frequency>()?.0,
+        9 => return temperature(unit),
+        _ => one.parse::<Density>()?.0,
+    };
+    Ok((factor, 0.0))
+}
+
+/// A scale of temperature that may begin elsewhere than the absolute one; C and F stand for degrees.
+fn temperature(unit: &str) -> Result<(f64, f64), UnitError> {
+    let scale = match unit {
+        "C" => "degC",
+        "F" => "degF",
+        other => other,
+    };
+    let zero = format!("0 {scale}").parse::<Temperature>()?.0;
+    let hundred = format!("100 {scale}").parse::<Temperature>()?.0;
+    Ok(((hundred - zero) / 100.0, zero))
 }

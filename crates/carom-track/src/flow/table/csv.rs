@@ -2,7 +2,7 @@
 
 use super::columns::{Columns, Quantity};
 use super::holes::fill;
-use super::{Named, Node, QUANTITIES, Table, TableError};
+use super::{DENSITY, Named, Row, TEMPERATURE, Table, TableError};
 use carom_table::Sheet;
 
 pub(super) fn read(text: &[u8], named: &Named) -> Result<Table, TableError> {
@@ -13,7 +13,7 @@ pub(super) fn read(text: &[u8], named: &Named) -> Result<Table, TableError> {
     let size = axes.each_ref().map(Vec::len);
     let count = size.iter().try_fold(1usize, |n, m| n.checked_mul(*m)).unwrap_or(usize::MAX);
     let mut line_of = vec![0u64; count.min(rows.at.len() * 4 + 1)];
-    let mut nodes = vec![[0.0; QUANTITIES]; line_of.len()];
+    let mut nodes = vec![Row::default(); line_of.len()];
     let mut valid = vec![true; line_of.len()];
     for (((x, node), line), holds) in rows.at.iter().zip(&rows.values).zip(&rows.lines).zip(&rows.valid) {
         let index = (0..3).fold(0usize, |n, i| n.wrapping_mul(size[i]).wrapping_add(nearest(&axes[i], x[i])));
@@ -32,13 +32,13 @@ pub(super) fn read(text: &[u8], named: &Named) -> Result<Table, TableError> {
     }
     let mut notes = columns.notes;
     notes.extend(fill(size, &mut nodes, &mut valid).map_err(|what| TableError::Holes { what })?);
-    Ok(Table::new(axes, nodes, columns.turbulent).noting(notes))
+    Ok(Table::new(axes, &nodes, columns.given).noting(notes))
 }
 
 /// The rows of a table, in order.
 struct Rows {
     at: Vec<[f64; 3]>,
-    values: Vec<Node>,
+    values: Vec<Row>,
     lines: Vec<u64>,
     valid: Vec<bool>,
 }
@@ -53,16 +53,19 @@ impl Rows {
                 let value = reader.number(mask.column)?;
                 valid &= value.is_none_or(|v| mask.holds(v));
             }
-            let (mut x, mut node) = ([0.0; 3], [0.0; QUANTITIES]);
+            let (mut x, mut node) = ([0.0; 3], Row::default());
             for found in &columns.found {
                 let value = if valid || found.is_place() { reader.number(found.column)? } else { Some(0.0) };
                 let nothing = || TableError::Nothing { line, column: found.written.clone() };
-                let value = value.ok_or_else(nothing)? * found.factor;
+                let value = value.ok_or_else(nothing)? * found.factor + found.offset;
                 match found.quantity {
                     Quantity::Place(c) => x[c] = value,
                     Quantity::Value(c) => {
-                        if c >= 3 && value < 0.0 {
+                        if (3..TEMPERATURE).contains(&c) && value < 0.0 {
                             return Err(TableError::Negative { line, column: found.written.clone(), value });
+                        }
+                        if (TEMPERATURE..=DENSITY).contains(&c) && valid && value <= 0.0 {
+                            return Err(TableError::NotPositive { line, column: found.written.clone(), value });
                         }
                         node[c] = value;
                     }

@@ -97,6 +97,19 @@ pub enum TableError {
         /// The value.
         value: f64,
     },
+    /// A temperature or density that no gas has.
+    #[error("flow table, line {line}: {column} is {value} in SI units; it must be positive")]
+    NotPositive {
+        /// Line, counted from 1.
+        line: u64,
+        /// The column's name.
+        column: String,
+        /// The value, K or kg/m³.
+        value: f64,
+    },
+    /// A density that the case names, without a temperature.
+    #[error("flow table: rho needs T beside it")]
+    DensityAlone,
     /// Two rows for one node.
     #[error("flow table, line {line}: the node ({}, {}, {}) was given before, in line {first}", .node[0], .node[1], .node[2])]
     Twice {

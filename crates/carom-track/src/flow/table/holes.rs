@@ -1,10 +1,12 @@
 //! Nodes where a file says that its values do not hold: inside a body, outside a mesh that was resampled.
 
-use super::{Node, QUANTITIES};
-
 /// Gives each node that is not valid the mean of its neighbours that are, layer after layer, and says so. A cell across the edge of
 /// what is valid then holds what its valid nodes say, and never what a file puts where it has no data.
-pub(super) fn fill(size: [usize; 3], nodes: &mut [Node], valid: &mut [bool]) -> Result<Option<String>, String> {
+pub(super) fn fill<const N: usize>(
+    size: [usize; 3],
+    nodes: &mut [[f64; N]],
+    valid: &mut [bool],
+) -> Result<Option<String>, String> {
     let all = valid.len();
     let holes = valid.iter().filter(|v| !**v).count();
     if holes == 0 {
@@ -23,7 +25,7 @@ pub(super) fn fill(size: [usize; 3], nodes: &mut [Node], valid: &mut [bool]) -> 
     let mut layer: Vec<usize> = (0..all).filter(|n| !valid[*n] && neighbours(*n).any(|near| valid[near])).collect();
     while !layer.is_empty() {
         let mean = |n: &usize| {
-            let (mut sum, mut count) = ([0.0; QUANTITIES], 0.0);
+            let (mut sum, mut count) = ([0.0; N], 0.0);
             for near in neighbours(*n).filter(|near| valid[*near]) {
                 count += 1.0;
                 for (s, q) in sum.iter_mut().zip(nodes[near]) {
@@ -32,7 +34,7 @@ pub(super) fn fill(size: [usize; 3], nodes: &mut [Node], valid: &mut [bool]) -> 
             }
             sum.map(|s| s / count)
         };
-        let means: Vec<Node> = layer.iter().map(mean).collect();
+        let means: Vec<[f64; N]> = layer.iter().map(mean).collect();
         for (n, mean) in layer.iter().zip(means) {
             (nodes[*n], valid[*n]) = (mean, true);
         }
@@ -51,7 +53,7 @@ mod tests {
 
     #[test]
     fn holes_take_what_is_beside_them() {
-        let mut nodes: Vec<Node> = [1.0, 0.0, 0.0, 4.0].map(|u| [u, 0.0, 0.0, 0.0, 0.0]).to_vec();
+        let mut nodes: Vec<[f64; 5]> = [1.0, 0.0, 0.0, 4.0].map(|u| [u, 0.0, 0.0, 0.0, 0.0]).to_vec();
         let mut valid = vec![true, false, false, true];
         let note = fill([4, 1, 1], &mut nodes, &mut valid).expect("some are valid");
         assert_eq!(nodes.iter().map(|n| n[0]).collect::<Vec<_>>(), [1.0, 1.0, 4.0, 4.0]);

@@ -1,6 +1,6 @@
-//! Velocity (and k, ε) on the nodes of a rectilinear grid, interpolated linearly along each axis.
+//! Velocity (and k, ε, temperature, density) on the nodes of a rectilinear grid, interpolated linearly along each axis.
 //!
-//! Text (VTK too, see [`Table::from_vtk`] and [`Table::from_vtk_xml`]): columns of x, y, z, u, v, w and optionally k and ε (or ω), by the
+//! Text (VTK too, see [`Table::from_vtk`] and [`Table::from_vtk_xml`]): columns of x, y, z, u, v, w and optionally k and ε (or ω), T and ρ, by the
 //! names and in the units that ParaView, Fluent, CFD-Post, STAR-CCM+, COMSOL and OpenFOAM write, or by those given ([`Named`]); SI units
 //! where none is named; one node a row, in any order, every node of the grid exactly once. What is left out is told ([`Table::notes`]).
 //! A coordinate with one value, or left out, makes a table of fewer dimensions:
@@ -21,6 +21,7 @@ mod csv;
 mod error;
 mod fastest;
 mod holes;
+mod state;
 mod vtk;
 mod xml;
 
@@ -116,6 +117,18 @@ const MESH: &str =
 const QUANTITIES: usize = 5;
 /// u, v, w, k, ε.
 type Node = [f64; QUANTITIES];
+/// What is read of a node: these, T and ρ.
+type Row = [f64; QUANTITIES + 2];
+const TEMPERATURE: usize = QUANTITIES;
+const DENSITY: usize = QUANTITIES + 1;
+
+/// Which of the quantities a file has besides the velocity.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct Given {
+    turbulence: bool,
+    temperature: bool,
+    density: bool,
+}
 
 /// A flow given on a rectilinear grid.
 #[derive(Clone, Debug)]
@@ -123,6 +136,7 @@ pub struct Table {
     axes: [Axis; 3],
     nodes: Vec<Node>,
     turbulent: bool,
+    state: Option<state::States>,
     notes: Vec<String>,
 }
 
@@ -196,8 +210,10 @@ impl Table {
     }
 
     /// Axes strictly rising and not empty; nodes with z running fastest.
-    fn new(axes: [Vec<f64>; 3], nodes: Vec<Node>, turbulent: bool) -> Self {
-        Self { axes: axes.map(Axis::new), nodes, turbulent, notes: Vec::new() }
+    fn new(axes: [Vec<f64>; 3], read: &[Row], given: Given) -> Self {
+        let nodes = read.iter().map(|[u, v, w, k, epsilon, ..]| [*u, *v, *w, *k, *epsilon]).collect();
+        let state = given.temperature.then(|| state::States::new(read, given.density));
+        Self { axes: axes.map(Axis::new), nodes, turbulent: given.turbulence, state, notes: Vec::new() }
     }
 
     fn noting(self, notes: Vec<String>) -> Self {
@@ -226,7 +242,12 @@ impl Table {
 
     #[inline]
     fn node(&self, i: usize, j: usize, k: usize) -> &Node {
-        &self.nodes[(i * self.axes[1].at.len() + j) * self.axes[2].at.len() + k]
+        &self.nodes[self.index(i, j, k)]
+    }
+
+    #[inline]
+    fn index(&self, i: usize, j: usize, k: usize) -> usize {
+        (i * self.axes[1].at.len() + j) * self.axes[2].at.len() + k
     }
 
     /// Weighted sum of the cell's corners: `w[axis]` are the weights of its low and high faces.
@@ -326,7 +347,8 @@ impl Table {
                 gradient[i][j] = column[i];
             }
         }
-        Local { k: k.max(0.0), epsilon: epsilon.max(0.0), ..Local::steady([u, v, w_], gradient) }
+        let gas = self.state.as_ref().map(|states| states.at(self, &p, w));
+        Local { k: k.max(0.0), epsilon: epsilon.max(0.0), gas, ..Local::steady([u, v, w_], gradient) }
     }
 }
 

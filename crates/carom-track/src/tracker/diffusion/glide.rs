@@ -40,7 +40,7 @@ impl<D: Domain> Drawn<'_, '_, D> {
     /// What the drag draws the sphere to at a time and place, m/s.
     #[inline(always)]
     fn to(&self, time: f64, x: Vec3) -> Vec3 {
-        if self.walk.dynamics.is_plain() {
+        if self.walk.dynamics.is_plain(self.walk.domain) {
             let u = self.walk.domain.velocities(&[self.here], &[time], &x.map(|c| [c]));
             let weight = column(&self.body.weight, 0);
             [0, 1, 2].map(|c| u[c][0] + weight[c] / self.rate)
@@ -130,7 +130,7 @@ impl<D: Domain> Walk<'_, D> {
         let at = |slow| run_scalar(At(self.drawn(crew, l, body, slow), crew.time[l], x));
         let first = at(crew.lanes[l].diffusion.slow);
         // lifts and drag go with the slip: once more with that of here
-        if self.dynamics.is_plain() { first } else { at(first) }
+        if self.dynamics.is_plain(self.domain) { first } else { at(first) }
     }
 
     /// How that changes over a displacement `by` from the end `change` of a lane's step, m/s.
