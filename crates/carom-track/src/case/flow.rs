@@ -126,10 +126,11 @@ pub(super) fn dynamics(
     varies: bool,
 ) -> Result<Dynamics, LawError> {
     let liquid = gas.is_none();
-    const DRAGS: [(&str, Drag); 4] = [
+    const DRAGS: [(&str, Drag); 5] = [
         ("none", Drag::None),
         ("stokes", Drag::Stokes),
         ("schiller-naumann", Drag::SchillerNaumann),
+        ("putnam", Drag::Putnam),
         ("morsi-alexander", Drag::MorsiAlexander),
     ];
     let drag = text.drag.as_ref().map_or(Ok(Drag::SchillerNaumann), |d| word(d, "drag law", &DRAGS))?;

@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | Stokes 1851 | f = 1 | Re ≪ 1 |
 //! | Schiller & Naumann 1935 (VDI Zeitschrift 77, 318–320) | f = 1 + 0.15 Re^0.687, then Newton's C_D = 0.44 | Re < 2e5 |
+//! | Putnam 1961 (ARS J. 31, 1467–1468; OpenFOAM's `sphereDrag`) | f = 1 + Re^(2/3)/6, from Re = 1000 on C_D = 0.424; there a tenth low | Re < 2e5 |
 //! | Morsi & Alexander 1972 (J. Fluid Mech. 55, 193–208, doi:10.1017/S0022112072001806) | C_D = a₁ + a₂/Re + a₃/Re², eight ranges | Re < 5e4 |
 //!
 //! Schiller–Naumann and Newton are joined where they cross, Re ≈ 989 (usually written 1000, with a jump of 0.4 %), so that
@@ -31,6 +32,8 @@ pub enum Drag {
     /// Schiller & Naumann, Newton beyond.
     #[default]
     SchillerNaumann,
+    /// Putnam, as OpenFOAM's `sphereDrag`.
+    Putnam,
     /// Morsi & Alexander.
     MorsiAlexander,
 }
@@ -43,6 +46,7 @@ impl Drag {
             Self::None => 0.0,
             Self::Stokes => 1.0,
             Self::SchillerNaumann => schiller_naumann(reynolds),
+            Self::Putnam => putnam(reynolds),
             Self::MorsiAlexander => morsi_alexander(reynolds),
         }
     }
@@ -67,6 +71,11 @@ impl Drag {
                     for (f, square) in f.iter_mut().zip(squares) {
                         *f = f.max(square.sqrt() * NEWTON);
                     }
+                }
+            }
+            Self::Putnam => {
+                for (f, square) in f.iter_mut().zip(squares) {
+                    *f = putnam_of_square(*square, square.sqrt());
                 }
             }
             Self::MorsiAlexander => {
@@ -102,6 +111,18 @@ fn power_law(square: f64) -> f64 {
     // where Re is so small that its power is lost against 1, the logarithm is kept in its domain
     let square = if square > 1e-300 { square } else { 1e-300 };
     0.15f64.mul_add(pow(square, 0.3435), 1.0)
+}
+
+/// f of Putnam; both pieces meet at Re = 1000.
+#[inline(always)]
+pub fn putnam(reynolds: f64) -> f64 {
+    putnam_of_square(reynolds * reynolds, reynolds)
+}
+
+#[inline(always)]
+fn putnam_of_square(square: f64, reynolds: f64) -> f64 {
+    let square = if square > 1e-300 { square } else { 1e-300 };
+    pow(square, 1.0 / 3.0).mul_add(1.0 / 6.0, 1.0).max(reynolds * (0.424 / 24.0))
 }
 
 /// f of Morsi & Alexander.
@@ -157,12 +178,23 @@ mod tests {
     }
 
     #[test]
+    fn putnam_is_continuous_and_as_published() {
+        for re in [1e-3f64, 0.5, 10.0, 300.0, 999.0] {
+            assert!((putnam(re) / (1.0 + re.powf(2.0 / 3.0) / 6.0) - 1.0).abs() < 1e-14, "{re}");
+        }
+        assert_eq!(putnam(0.0), 1.0);
+        assert!((putnam(1000.0) * 24.0 / 1000.0 - 0.424).abs() < 1e-14);
+        assert!((putnam(2e4) * 24.0 / 2e4 - 0.424).abs() < 1e-15);
+    }
+
+    #[test]
     fn standard_drag_curve() {
-        // Clift, Grace & Weber 1978, table 5.2: C_D of a sphere; both laws claim about 5 %
+        // Clift, Grace & Weber 1978, table 5.2: C_D of a sphere; the laws claim about 5 %, but Putnam is a tenth low where its pieces meet
         for (re, c_d) in [(0.1, 244.0), (1.0, 27.15), (10.0, 4.26), (100.0, 1.09), (1000.0, 0.471)] {
-            for drag in [Drag::SchillerNaumann, Drag::MorsiAlexander] {
+            for drag in [Drag::SchillerNaumann, Drag::Putnam, Drag::MorsiAlexander] {
                 let got = drag.factor(re) * 24.0 / re;
-                assert!((got / c_d - 1.0).abs() < 0.07, "{drag:?} {re} {got} {c_d}");
+                let within = if drag == Drag::Putnam && re == 1000.0 { 0.11 } else { 0.07 };
+                assert!((got / c_d - 1.0).abs() < within, "{drag:?} {re} {got} {c_d}");
             }
         }
     }
@@ -182,7 +214,7 @@ mod tests {
     #[test]
     fn lanes_have_the_same_bits_whatever_their_company() {
         let re = [0.0, 1e-9, 0.05, 1.0, 40.0, 900.0, 990.0, 1e5];
-        for drag in [Drag::None, Drag::Stokes, Drag::SchillerNaumann, Drag::MorsiAlexander] {
+        for drag in [Drag::None, Drag::Stokes, Drag::SchillerNaumann, Drag::Putnam, Drag::MorsiAlexander] {
             let together = drag.factors_of_squares(&re.map(|r| r * r));
             for (re, f) in re.into_iter().zip(together) {
                 assert_eq!(drag.factors_of_squares(&[re * re])[0].to_bits(), f.to_bits(), "{drag:?} {re}");
@@ -195,7 +227,7 @@ mod tests {
     fn the_bound_holds_for_every_law() {
         for i in 0..=700 {
             let re = 10f64.powf(-2.0 + 0.01 * f64::from(i));
-            for drag in [Drag::None, Drag::Stokes, Drag::SchillerNaumann, Drag::MorsiAlexander] {
+            for drag in [Drag::None, Drag::Stokes, Drag::SchillerNaumann, Drag::Putnam, Drag::MorsiAlexander] {
                 assert!(drag.factor(re) < Drag::at_most(re), "{drag:?} {re}");
             }
         }
