@@ -55,7 +55,8 @@ fn particle(number: u64) -> Particle {
 
 fn closed_box(c: &mut Criterion) {
     let room = Shape::Room(Room { min: [0.0; 3], max: [0.02; 3] });
-    let wall = Wall { name: "box".into(), shape: room, contact_at: ContactAt::Surface, velocity: [0.0; 3] };
+    let wall =
+        Wall { name: "box".into(), shape: room, contact_at: ContactAt::Surface, velocity: [0.0; 3], patch: None };
     let domain = AnyDomain::new(Flow::Still, vec![wall]);
     let law = "normal = \"constant\"\nrestitution = 0.95\ntangential = \"constant\"\ntangential_restitution = 0.95\n";
     let law = carom::spec::parse_law(law).expect("a law").compile(carom::material::Library::builtin()).expect("a law");

@@ -2,12 +2,17 @@
 
 #![allow(clippy::needless_range_loop, reason = "one index runs through several arrays of lanes or components")]
 
+mod meshed;
+
+pub use meshed::Meshed;
+
 use crate::flow::{Exit, Flow, Local, Piece};
 use crate::geometry::{Ahead, Path, Walls};
 pub use crate::geometry::{ContactAt, Hit, Wall};
 use crate::integrate::{Lanes, Lanes3};
 use crate::lanes::{Mask, mask};
 use crate::vector::{Vec3, dot, norm};
+pub use carom_cfd::Carry;
 use std::fmt::Debug;
 
 /// A space with a fluid and walls, made of pieces in each of which the flow is smooth: cells, layers, a jet's inside.
@@ -42,6 +47,16 @@ pub trait Domain: Sync {
 
     /// Whether there is one piece only, and no step too long for it.
     fn is_one_piece(&self) -> bool {
+        false
+    }
+
+    /// The piece that a sphere at `x` comes into next on its way along `v`, where it was led round and round without getting on.
+    fn enter_ahead(&self, here: Self::Here, _x: Vec3, _v: Vec3) -> Self::Here {
+        here
+    }
+
+    /// Whether a piece is none: the place is outside the space, though no wall was met.
+    fn is_lost(&self, _here: Self::Here) -> bool {
         false
     }
 
@@ -82,13 +97,7 @@ pub trait Domain: Sync {
         if let Next::Longest(_) = edge {
             return edge;
         }
-        match (edge, self.walls().first(path, radius)) {
-            (Next::Edge { theta, into }, hit) if hit.is_none_or(|h| theta < h.meeting.theta) => {
-                Next::Edge { theta, into }
-            }
-            (_, Some(hit)) => Next::Wall(hit),
-            (edge, None) => edge,
-        }
+        earlier(edge, self.walls().first(path, radius))
     }
 
     /// The walls.
@@ -107,10 +116,32 @@ pub enum Next<H> {
         /// The piece behind it.
         into: H,
     },
+    /// A place from which the space goes on elsewhere: a plane of symmetry, a cyclic patch.
+    Carried {
+        /// Where on the path, 0 to 1.
+        theta: f64,
+        /// The piece there.
+        into: H,
+        /// How places and vectors are carried there; spins do not turn with a mirror.
+        carry: Carry,
+    },
     /// A wall.
     Wall(Hit),
     /// The path is longer than the flow's structure allows: a step this share as long would not be.
     Longest(f64),
+}
+
+/// An edge or a wall, whichever comes first.
+#[inline(always)]
+fn earlier<H>(edge: Next<H>, hit: Option<Hit>) -> Next<H> {
+    match (edge, hit) {
+        (Next::Edge { theta, into }, hit) if hit.is_none_or(|h| theta < h.meeting.theta) => Next::Edge { theta, into },
+        (Next::Carried { theta, into, carry }, hit) if hit.is_none_or(|h| theta < h.meeting.theta) => {
+            Next::Carried { theta, into, carry }
+        }
+        (_, Some(hit)) => Next::Wall(hit),
+        (edge, None) => edge,
+    }
 }
 
 /// An analytic flow or a table, with walls.
@@ -256,6 +287,8 @@ impl Analytic {
 pub enum AnyDomain {
     /// An analytic flow or a table, with walls.
     Analytic(Analytic),
+    /// A finished CFD result, with walls.
+    Meshed(Meshed),
 }
 
 impl From<Analytic> for AnyDomain {
@@ -267,13 +300,23 @@ impl From<Analytic> for AnyDomain {
 impl AnyDomain {
     /// A flow and its walls.
     pub fn new(flow: Flow, walls: Vec<Wall>) -> Self {
-        Analytic::new(flow, walls).into()
+        match flow {
+            // walls made of patches carry their names
+            Flow::Cells(cells) => {
+                let of_patch =
+                    cells.patches().iter().map(|p| walls.iter().position(|w| w.patch.as_deref() == Some(&p.name)));
+                let of_patch = of_patch.collect();
+                Meshed::new(cells, Walls::new(walls), of_patch).into()
+            }
+            flow => Analytic::new(flow, walls).into(),
+        }
     }
 
     /// The same, some of its walls openings: spheres meet them, the fluid does not.
     pub fn with_openings(self, open: Vec<bool>) -> Self {
         match self {
             Self::Analytic(d) => Analytic { walls: d.walls.with_openings(open), ..d }.into(),
+            Self::Meshed(d) => d.with_openings(open).into(),
         }
     }
 
@@ -286,6 +329,7 @@ impl AnyDomain {
     pub fn geometry(&self) -> &Walls {
         match self {
             Self::Analytic(d) => d.walls(),
+            Self::Meshed(d) => d.walls(),
         }
     }
 
@@ -293,6 +337,7 @@ impl AnyDomain {
     pub fn fluid(&self, time: f64, x: Vec3) -> Local {
         match self {
             Self::Analytic(d) => d.fluid(d.enter(time, x), time, x),
+            Self::Meshed(d) => d.fluid(d.enter(time, x), time, x),
         }
     }
 }

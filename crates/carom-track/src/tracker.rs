@@ -156,6 +156,7 @@ impl Tracker<'_> {
             AnyDomain::Analytic(domain) => {
                 set.run(Flight { walk: self.walk(domain, set), particles: &mut known, sink })
             }
+            AnyDomain::Meshed(domain) => set.run(Flight { walk: self.walk(domain, set), particles: &mut known, sink }),
         }
         refused.map_or(Ok(()), Err)
     }

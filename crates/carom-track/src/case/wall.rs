@@ -27,7 +27,7 @@ pub(super) fn read(at: &At<WallText>, files: &Files, notes: &mut Vec<String>) ->
     let contacts = [("surface", ContactAt::Surface), ("center", ContactAt::Center)];
     let contact_at = text.contact_at.as_ref().map_or(Ok(ContactAt::Surface), |c| word(c, "contact_at", &contacts))?;
     let velocity = velocity(text, &shape)?;
-    Ok(Wall { name: text.name.value.clone(), shape, contact_at, velocity })
+    Ok(Wall { name: text.name.value.clone(), shape, contact_at, velocity, patch: None })
 }
 
 fn shape(at: &At<WallText>, files: &Files, notes: &mut Vec<String>) -> Result<Shape, LawError> {

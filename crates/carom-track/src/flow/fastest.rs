@@ -26,6 +26,7 @@ impl Flow {
             Self::SlotJet(f) => f.speed(),
             Self::RoundJet(f) => f.speed(),
             Self::Table(f) => f.fastest([low, high]),
+            Self::Cells(f) => f.fastest([low, high]),
         };
         bound * ROUNDING
     }

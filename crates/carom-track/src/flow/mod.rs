@@ -3,6 +3,7 @@
 //! Flows are steady functions of position. They have no walls of their own: a point beyond a channel's or a pipe's
 //! wall sees the fluid at rest there.
 
+pub mod cells;
 mod channel;
 mod fastest;
 mod fluid;
@@ -17,6 +18,7 @@ mod round_jet;
 mod stagnation;
 mod table;
 
+pub use cells::Cells;
 pub use channel::Channel;
 pub use fluid::Fluid;
 pub(crate) use gas::mean_free_path;
@@ -112,6 +114,8 @@ pub enum Flow {
     RoundJet(RoundJet),
     /// Values on a rectilinear grid.
     Table(Table),
+    /// A finished CFD result on a mesh of cells.
+    Cells(std::sync::Arc<Cells>),
 }
 
 impl Flow {
@@ -127,6 +131,7 @@ impl Flow {
             Self::SlotJet(f) => f.velocity(x),
             Self::RoundJet(f) => f.velocity(x),
             Self::Table(f) => f.velocity(x),
+            Self::Cells(f) => f.velocity(x),
         }
     }
 
@@ -134,7 +139,7 @@ impl Flow {
     #[inline]
     pub fn piece(&self, x: [f64; 3]) -> Piece {
         match self {
-            Self::Still | Self::Uniform { .. } | Self::Stagnation(_) => Piece::default(),
+            Self::Still | Self::Uniform { .. } | Self::Stagnation(_) | Self::Cells(_) => Piece::default(),
             Self::Channel(f) => f.piece(x),
             Self::Pipe(f) => f.piece(x),
             Self::SlotJet(f) => f.piece(x),
@@ -150,7 +155,7 @@ impl Flow {
             Self::Still | Self::Uniform { .. } | Self::Stagnation(_) => true,
             Self::Channel(f) => f.is_one_piece(),
             Self::Pipe(f) => f.is_one_piece(),
-            Self::SlotJet(_) | Self::RoundJet(_) | Self::Table(_) => false,
+            Self::SlotJet(_) | Self::RoundJet(_) | Self::Table(_) | Self::Cells(_) => false,
         }
     }
 
@@ -158,7 +163,7 @@ impl Flow {
     #[inline]
     pub fn exit(&self, piece: Piece, path: &Path) -> Option<Exit> {
         match self {
-            Self::Still | Self::Uniform { .. } | Self::Stagnation(_) => None,
+            Self::Still | Self::Uniform { .. } | Self::Stagnation(_) | Self::Cells(_) => None,
             Self::Channel(f) => f.exit(piece, path),
             Self::Pipe(f) => f.exit(piece, path),
             Self::SlotJet(f) => f.exit(piece, path),
@@ -176,7 +181,7 @@ impl Flow {
             Self::Channel(f) => within(f.bounds(piece), 1),
             Self::Table(f) => (0..3).all(|c| within(f.edges(piece, c), c)),
             // round: left to the look at the path
-            Self::Pipe(_) | Self::SlotJet(_) | Self::RoundJet(_) => false,
+            Self::Pipe(_) | Self::SlotJet(_) | Self::RoundJet(_) | Self::Cells(_) => false,
         }
     }
 
@@ -197,9 +202,12 @@ impl Flow {
             Self::Channel(f) => f.soonest(piece, x, v),
             Self::Pipe(f) => f.soonest(piece, x, v),
             Self::Table(f) => f.soonest(piece, x, v),
-            Self::Still | Self::Uniform { .. } | Self::Stagnation(_) | Self::SlotJet(_) | Self::RoundJet(_) => {
-                f64::INFINITY
-            }
+            Self::Still
+            | Self::Uniform { .. }
+            | Self::Stagnation(_)
+            | Self::SlotJet(_)
+            | Self::RoundJet(_)
+            | Self::Cells(_) => f64::INFINITY,
         }
     }
 
@@ -219,6 +227,7 @@ impl Flow {
             Self::SlotJet(f) => f.velocity_in(piece, x),
             Self::RoundJet(f) => f.velocity_in(piece, x),
             Self::Table(f) => f.velocity_in(piece, x),
+            Self::Cells(f) => f.velocity(x),
         }
     }
 
@@ -274,6 +283,7 @@ impl Flow {
             Self::SlotJet(f) => f.sample_in(piece, x),
             Self::RoundJet(f) => f.sample_in(piece, x),
             Self::Table(f) => f.sample_in(piece, x),
+            Self::Cells(f) => f.sample(x),
         }
     }
 }

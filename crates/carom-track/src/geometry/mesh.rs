@@ -14,7 +14,7 @@ mod piece;
 mod rim;
 mod surface;
 mod sweep;
-mod tree;
+pub(crate) mod tree;
 
 use super::contact::misses;
 use super::{Bounds, Meeting, Path};

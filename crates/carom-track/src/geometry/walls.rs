@@ -44,12 +44,14 @@ pub struct Wall {
     pub contact_at: ContactAt,
     /// Velocity of the wall along itself, m/s.
     pub velocity: Vec3,
+    /// The patch of a mesh of cells that it is.
+    pub patch: Option<String>,
 }
 
 impl Wall {
     /// A wall at rest that a sphere's surface touches.
     pub fn new(name: &str, shape: Shape) -> Self {
-        Self { name: name.to_owned(), shape, contact_at: ContactAt::Surface, velocity: [0.0; 3] }
+        Self { name: name.to_owned(), shape, contact_at: ContactAt::Surface, velocity: [0.0; 3], patch: None }
     }
 
     /// Distance at which a sphere of that radius is in contact, m.
@@ -171,6 +173,11 @@ impl Walls {
         nearest
     }
 
+    /// Distance of the nearest of them from a point, m.
+    pub fn distance(&self, x: Vec3) -> f64 {
+        self.list.iter().map(|w| w.shape.distance(x).abs()).fold(f64::INFINITY, f64::min)
+    }
+
     /// The walls, in the order of their indices.
     pub fn list(&self) -> &[Wall] {
         &self.list
@@ -264,7 +271,7 @@ mod tests {
     use proptest::prelude::*;
 
     fn wall(shape: Shape) -> Wall {
-        Wall { name: String::new(), shape, contact_at: ContactAt::Surface, velocity: [0.0; 3] }
+        Wall { name: String::new(), shape, contact_at: ContactAt::Surface, velocity: [0.0; 3], patch: None }
     }
 
     fn rod(point: Vec3, axis: Vec3, radius: f64, inside: bool) -> Shape {

@@ -50,7 +50,7 @@ impl<D: Domain> Walk<'_, D> {
             theta[l] = match &next {
                 Next::Clear => continue,
                 Next::Wall(hit) => hit.meeting.theta,
-                Next::Edge { theta, .. } => *theta,
+                Next::Edge { theta, .. } | Next::Carried { theta, .. } => *theta,
                 Next::Longest(_) => 0.0,
             };
             found |= 1 << l;

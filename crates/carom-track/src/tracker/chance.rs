@@ -5,7 +5,7 @@
 
 use super::Walk;
 use super::crew::{Crew, motion_of};
-use crate::domain::Domain;
+use crate::domain::{Carry, Domain};
 use crate::flow::{Fluid, Local};
 use crate::force::{Eddy, RandomWalk, Surroundings};
 use crate::random::{Purpose, Stream};
@@ -40,6 +40,12 @@ impl Chance {
     /// The eddy in the middle of a step.
     pub fn midway(&self, step: f64) -> Eddy {
         self.eddy.middle(&self.place, step)
+    }
+
+    /// Turns what is drawn with the space.
+    pub fn carry(&mut self, carry: &Carry) {
+        self.eddy.deviates = carry.vector(self.eddy.deviates);
+        self.place.drift = carry.vector(self.place.drift);
     }
 
     /// The next change, s.

@@ -18,9 +18,10 @@ mod surface;
 
 use super::Walk;
 use super::meeting::LOWEST;
-use super::walk::least_step;
+use super::walk::{NO_WAY, ROUND, least_step};
 use crate::domain::{Domain, Hit, Next};
 use crate::dynamics::Bodies;
+use crate::flow::cells::carry_spin;
 use crate::geometry::{Path, Shape, evaluate};
 use crate::integrate::{Control, Derivative, Motion as Motions, Rates, Step, exponential, growth, step};
 use crate::record::Event;
@@ -50,6 +51,8 @@ pub(super) enum Ending {
     Meets(Hit),
     /// Its steps ran out.
     Stalls,
+    /// It is outside the space.
+    Lost,
 }
 
 /// Force along the surface over the one across it that counts as none.
@@ -88,6 +91,8 @@ pub(super) struct Contact<'a, D: Domain> {
     /// Whether it steps as a sphere that follows the fluid.
     follows: bool,
     next: f64,
+    /// Edges in a row without getting on.
+    edges: u32,
     /// By how much a path is lifted off what the sphere touches, before other walls are looked for, m.
     lift: Vec3,
     /// Its end at the latest, s.
@@ -132,6 +137,7 @@ impl<'a, D: Domain> Contact<'a, D> {
             rolls,
             follows,
             next,
+            edges: 0,
             lift,
             until,
             chance_presses,
@@ -297,6 +303,7 @@ impl<'a, D: Domain> Contact<'a, D> {
                 self.next = h * share;
                 continue;
             }
+            let before = self.time;
             let (theta, stop) = self.first_stop(&surface, kind, &trial, &path, h);
             self.worn += self.work(&surface, kind, &trial, h, theta);
             self.take(&surface, &trial, h, theta, until);
@@ -306,14 +313,29 @@ impl<'a, D: Domain> Contact<'a, D> {
             match stop {
                 Stop::Whole => {}
                 Stop::Edge(into) => {
-                    self.here = into;
+                    self.edges = if self.time > before && theta >= NO_WAY { 0 } else { self.edges + 1 };
+                    // led round and round where pieces overlap
+                    let round = self.edges > ROUND;
+                    self.here =
+                        if round { self.walk.domain.enter_ahead(into, self.motion.x, self.motion.v) } else { into };
                     self.strayed |= self.walk.domain.is_beyond(into);
+                }
+                Stop::Carried(into, carry) => {
+                    self.here = into;
+                    let Motion { x, v, spin } = self.motion;
+                    self.motion = Motion { x: carry.point(x), v: carry.vector(v), spin: carry_spin(&carry, spin) };
                 }
                 Stop::Wall(hit) => return Ending::Meets(self.touch(hit)),
                 Stop::Grip => self.rolls = !self.rolls,
                 Stop::Press if surface.list().len() == 1 => return Ending::Leaves(self.lost(&surface)),
                 Stop::Press => {}
                 Stop::Support => return Ending::Leaves(self.off()),
+            }
+            if self.walk.domain.is_lost(self.here) {
+                self.here = self.walk.domain.enter(self.time, self.motion.x);
+                if self.walk.domain.is_lost(self.here) {
+                    return Ending::Lost;
+                }
             }
         }
     }

@@ -20,6 +20,8 @@ pub(super) struct Lane {
     pub standing: u32,
     /// Edges in a row during which no time passed.
     pub edges: u32,
+    /// Edges in a row without getting on.
+    pub round: u32,
     /// The trial step was chosen for a wall already seen.
     pub fitted: bool,
     /// Points of the path are wanted.
@@ -55,6 +57,7 @@ impl Lane {
             impacts: 0,
             standing: 0,
             edges: 0,
+            round: 0,
             fitted: false,
             trace,
             strayed: false,

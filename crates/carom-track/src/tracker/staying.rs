@@ -59,6 +59,7 @@ impl<D: Domain> Walk<'_, D> {
                     break (None, Some(Fate::Sliding));
                 }
                 Ending::Leaves(event) => break (Some(event), None),
+                Ending::Lost => break (None, Some(Fate::Stuck)),
                 Ending::Meets(hit) => {
                     blows += 1;
                     let off = contact.left_by();
@@ -87,7 +88,7 @@ impl<D: Domain> Walk<'_, D> {
             self.end_row(crew, l, &contact, (began.1, contact.motion), event, sink);
         }
         match fate {
-            Some(fate) => finish(crew, l, fate, Some(wall), sink),
+            Some(fate) => finish(crew, l, fate, (fate != Fate::Stuck).then_some(wall), sink),
             None => self.fly_on(crew, l, began.0),
         }
     }
@@ -123,6 +124,7 @@ impl<D: Domain> Walk<'_, D> {
                     sink.stalled();
                     return finish(crew, l, Fate::Airborne, None, sink);
                 }
+                Ending::Lost => return finish(crew, l, Fate::Stuck, None, sink),
                 // held in a corner: it stays there as long as it is pushed
                 Ending::Rests => {
                     crew.time[l] = until;

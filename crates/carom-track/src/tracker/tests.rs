@@ -40,6 +40,7 @@ fn plane(name: &str, point: Vec3, normal: Vec3) -> Wall {
         shape: Shape::Plane(Plane { point, normal }),
         contact_at: ContactAt::Surface,
         velocity: [0.0; 3],
+        patch: None,
     }
 }
 
@@ -266,6 +267,7 @@ fn a_spinning_sphere_is_lifted_and_slows_down() {
 }
 
 mod any_walls;
+mod cells;
 mod contact;
 mod contact_round;
 mod follows;

@@ -6,8 +6,9 @@ use super::ahead::Met;
 use super::crew::{Crew, motion_of};
 use super::lane::{self, Lane};
 use super::{Behavior, Particle, Settings, meeting};
-use crate::domain::{Domain, Next};
+use crate::domain::{Carry, Domain, Next};
 use crate::dynamics::{Bodies, Dynamics};
+use crate::flow::cells::carry_spin;
 use crate::force::Sphere;
 use crate::geometry::evaluate;
 use crate::integrate::{Control, Derivative, Lanes, Motion, Rates, growth};
@@ -39,6 +40,12 @@ impl<D> Clone for Walk<'_, D> {
 const LOOK: u64 = 64;
 /// Edges met in a row without any time between them after which a sphere is led off the edge.
 pub(super) const MOST_EDGES: u32 = 8;
+/// Share of a step that is no way to get on.
+pub(super) const NO_WAY: f64 = 1e-9;
+/// Edges met in a row without getting on, as where pieces overlap, after which the piece is looked for anew.
+pub(super) const ROUND: u32 = 2 * MOST_EDGES;
+/// And after which the sphere is lost.
+const LOST: u32 = 64 * MOST_EDGES;
 /// Share of the step that the tolerance allows which is always worth trying.
 pub(super) const LEAST_SHARE: f64 = 1.0 / 64.0;
 /// What is left of a step that leads off an edge.
@@ -141,10 +148,15 @@ impl<D: Domain> Walk<'_, D> {
         crew.lanes[l] = Lane::new(particle, trace);
         crew.here[l] = self.domain.enter(particle.time, particle.position);
         self.stray(crew, l, sink);
+        let outside = self.domain.is_lost(crew.here[l]);
         (crew.time[l], crew.stop[l], crew.steps[l]) = (particle.time, self.settings.until, 0);
         (crew.busy[l], crew.quiet[l]) = (true, mask(!trace && !self.has_chance()));
         if particle.time >= self.settings.until {
             finish(crew, l, Fate::Airborne, None, sink);
+            return;
+        }
+        if outside {
+            finish(crew, l, Fate::Stuck, None, sink);
             return;
         }
         if let Some(overlap) = self.domain.walls().overlap(particle.position, crew.bodies.radius[l]) {
@@ -286,7 +298,10 @@ impl<D: Domain> Walk<'_, D> {
                 }
                 Next::Clear => self.accept(crew, l, factor, sink),
                 Next::Longest(share) => crew.next[l] = h * share,
-                Next::Edge { theta, into } => self.cross(crew, l, (*theta, *into), met, factor, sink),
+                Next::Edge { theta, into } => self.cross(crew, l, (*theta, *into, None), met, factor, sink),
+                Next::Carried { theta, into, carry } => {
+                    self.cross(crew, l, (*theta, *into, Some(carry)), met, factor, sink);
+                }
                 Next::Wall(hit) => {
                     let theta = hit.meeting.theta;
                     if theta > 0.0 && theta < 1e-3 && !crew.lanes[l].fitted {
@@ -302,13 +317,13 @@ impl<D: Domain> Walk<'_, D> {
         }
     }
 
-    /// Ends a step of one lane at the edge of a piece, and puts it into the next one.
+    /// Ends a step of one lane at the edge of a piece, and puts it into the next one, carried over where the space goes on elsewhere.
     #[inline(never)]
     fn cross<const W: usize>(
         &self,
         crew: &mut Crew<W, D::Here>,
         l: usize,
-        (theta, into): (f64, D::Here),
+        (theta, into, carry): (f64, D::Here, Option<&Carry>),
         met: &Met<D::Here>,
         factor: f64,
         sink: &mut dyn Sink,
@@ -321,9 +336,27 @@ impl<D: Domain> Walk<'_, D> {
         let before = crew.time[l];
         crew.time[l] += theta * h;
         crew.next[l] = crew.after(l, factor);
-        crew.here[l] = into;
+        // led round and round where pieces overlap
+        let lane = &mut crew.lanes[l];
+        lane.round = if theta < NO_WAY || crew.time[l] == before { lane.round + 1 } else { 0 };
+        let round = lane.round > ROUND;
+        crew.here[l] = if round { self.domain.enter_ahead(into, met.position, met.velocity) } else { into };
         self.stray(crew, l, sink);
-        meeting::put(crew, l, met.position, met.velocity, spin);
+        let (mut x, mut v, mut spin) = (met.position, met.velocity, spin);
+        if let Some(carry) = carry {
+            (x, v, spin) = (carry.point(x), carry.vector(v), carry_spin(carry, spin));
+            crew.lanes[l].chance.carry(carry);
+            if let Some(eddy) = &mut crew.bodies.eddy[l] {
+                eddy.deviates = carry.vector(eddy.deviates);
+            }
+            if crew.lanes[l].trace {
+                sink.point(crew.lanes[l].particle.number, crew.time[l], x, v, spin);
+            }
+        }
+        meeting::put(crew, l, x, v, spin);
+        if self.domain.is_lost(crew.here[l]) || crew.lanes[l].round > LOST {
+            return finish(crew, l, Fate::Stuck, None, sink);
+        }
         let lane = &mut crew.lanes[l];
         lane.fitted = false;
         if crew.time[l] > before {

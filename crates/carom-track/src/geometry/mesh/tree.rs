@@ -10,7 +10,7 @@ use crate::vector::{Vec3, norm, sub};
 /// Four boxes and what is in them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(align(64))]
-pub(super) struct Node {
+pub(crate) struct Node {
     /// Lower and upper sides of the four boxes, axis by axis; an absent child's box is empty.
     pub min: [[f64; 4]; 3],
     pub max: [[f64; 4]; 3],
@@ -19,7 +19,7 @@ pub(super) struct Node {
 
 /// A node or a run of triangles.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Child {
+pub(crate) struct Child {
     /// Index of the node, or of the first triangle.
     pub first: u32,
     /// Number of triangles; 0 for a node.
@@ -30,11 +30,11 @@ pub(super) struct Child {
 }
 
 /// More than one plane.
-pub(super) const MIXED: u32 = u32::MAX;
+pub(crate) const MIXED: u32 = u32::MAX;
 
 /// The hierarchy; the first node is the root.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Tree {
+pub(crate) struct Tree {
     pub nodes: Vec<Node>,
 }
 
@@ -48,7 +48,7 @@ const DEEP: u32 = 40;
 const PARALLEL: usize = 4096;
 
 /// Most nodes that wait while the search goes down: three of each level, `DEEP` levels and those of 2³² triangles halved.
-pub(super) const STACK: usize = 3 * (DEEP as usize + 32) + 4;
+pub(crate) const STACK: usize = 3 * (DEEP as usize + 32) + 4;
 
 /// A triangle's box in single precision, rounded outwards: enough to choose splits by.
 #[derive(Clone, Copy)]

@@ -2,7 +2,7 @@
 
 use super::surface::{Held, Surface};
 use super::{Contact, Kind, Motion};
-use crate::domain::{Domain, Hit, Next};
+use crate::domain::{Carry, Domain, Hit, Next};
 use crate::geometry::{Path, Shape};
 use crate::integrate::Step;
 use crate::vector::{add, dot, norm};
@@ -13,6 +13,8 @@ pub(super) enum Stop<H> {
     /// At its end.
     Whole,
     Edge(H),
+    /// Where the space goes on elsewhere.
+    Carried(H, Carry),
     Wall(Hit),
     /// The slip is gone, or friction does not keep it zero.
     Grip,
@@ -33,8 +35,10 @@ impl<D: Domain> Contact<'_, D> {
         h: f64,
     ) -> (f64, Stop<D::Here>) {
         let mut first = (1.0, Stop::Whole);
-        if let Next::Edge { theta, into } = self.walk.domain.edge(self.here, path) {
-            first = (theta, Stop::Edge(into));
+        match self.walk.domain.edge(self.here, path) {
+            Next::Edge { theta, into } => first = (theta, Stop::Edge(into)),
+            Next::Carried { theta, into, carry } => first = (theta, Stop::Carried(into, carry)),
+            Next::Clear | Next::Wall(_) | Next::Longest(_) => {}
         }
         if let Some(hit) = self.other_wall(surface, path).filter(|hit| hit.meeting.theta < first.0) {
             first = (hit.meeting.theta, Stop::Wall(hit));

@@ -261,7 +261,7 @@ mod tests {
 
     fn wall(normal: Vec3) -> Wall {
         let shape = Shape::Plane(Plane { point: [0.0; 3], normal });
-        Wall { name: String::new(), shape, contact_at: ContactAt::Surface, velocity: [0.0; 3] }
+        Wall { name: String::new(), shape, contact_at: ContactAt::Surface, velocity: [0.0; 3], patch: None }
     }
 
     fn held(wall: &Wall) -> Held<'_> {

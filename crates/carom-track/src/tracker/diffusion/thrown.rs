@@ -42,6 +42,8 @@ impl<D: Domain> Walk<'_, D> {
                 return None;
             }
             Next::Edge { theta, into } => cut(leg, theta, into, rate),
+            // a case with places from which the space goes on elsewhere has no Brownian motion
+            Next::Carried { theta, into, .. } => cut(leg, theta, into, rate),
             Next::Clear | Next::Wall(_) => leg,
         };
         crew.next[l] = after;

@@ -53,7 +53,7 @@ proptest! {
         block in any::<bool>(),
         angle in prop::sample::select(vec![0.0, 5.0, 25.0]),
     ) {
-        let wall = |name: &str, shape| Wall { name: name.into(), shape, contact_at: ContactAt::Surface, velocity: [0.0; 3] };
+        let wall = |name: &str, shape| Wall { name: name.into(), shape, contact_at: ContactAt::Surface, velocity: [0.0; 3], patch: None };
         let mut walls = vec![wall("room", Shape::Room(Room { min: [-0.02; 3], max: [0.02; 3] }))];
         for n in normals.iter().filter_map(|n| unit(*n)) {
             walls.push(wall("plane", Shape::Plane(Plane { point: n.map(|c| -0.01 * c), normal: n })));

@@ -69,8 +69,13 @@ fn contact_at_the_centre_comes_one_radius_later() {
 #[test]
 fn elastic_spheres_in_a_pipe_keep_energy_and_stay_inside() {
     let pipe = Cylinder { point: [0.0; 3], axis: [1.0, 0.0, 0.0], radius: 0.005, inside: true };
-    let wall =
-        Wall { name: "pipe".into(), shape: Shape::Cylinder(pipe), contact_at: ContactAt::Surface, velocity: [0.0; 3] };
+    let wall = Wall {
+        name: "pipe".into(),
+        shape: Shape::Cylinder(pipe),
+        contact_at: ContactAt::Surface,
+        velocity: [0.0; 3],
+        patch: None,
+    };
     let domain = AnyDomain::new(Flow::Still, vec![wall]);
     let f = dynamics(Drag::None);
     let p = sphere(0, [0.0, 0.001, 0.002], [0.1, 0.7, -0.4]);

@@ -1,0 +1,182 @@
+//! A mesh of cells with walls: from tetrahedron to tetrahedron.
+
+#![allow(clippy::needless_range_loop, reason = "one index runs through several arrays of lanes or components")]
+
+use super::{BEYOND, Domain, Next};
+use crate::flow::Local;
+use crate::flow::cells::{Behind, Cells, Tetrahedron};
+use crate::geometry::{Ahead, Hit, Meeting, Path, Walls};
+use crate::integrate::{Lanes, Lanes3};
+use crate::lanes::mask;
+use crate::vector::{Vec3, dot, scale, sub, unit};
+use rayon::prelude::*;
+use std::sync::Arc;
+
+/// A finished CFD result with walls.
+#[derive(Debug)]
+pub struct Meshed {
+    cells: Arc<Cells>,
+    walls: Walls,
+    /// Of each patch, the index of its wall.
+    of_patch: Vec<Option<usize>>,
+    /// Of each cell, a distance from its centre within which there is no wall, m.
+    clear: Vec<f32>,
+}
+
+impl Meshed {
+    /// A flow on cells, and its walls; `of_patch` says which wall each patch is.
+    pub fn new(cells: Arc<Cells>, walls: Walls, of_patch: Vec<Option<usize>>) -> Self {
+        let clear = (0..cells.len())
+            .into_par_iter()
+            .map(|cell| {
+                let distance = walls.distance(cells.middle(cell));
+                // never more than it is
+                (distance * (1.0 - 1e-6)) as f32 * (1.0 - 1e-6)
+            })
+            .collect();
+        Self { cells, walls, of_patch, clear }
+    }
+
+    /// The flow.
+    pub fn cells(&self) -> &Arc<Cells> {
+        &self.cells
+    }
+
+    pub(super) fn with_openings(self, open: Vec<bool>) -> Self {
+        Self { walls: self.walls.with_openings(open), ..self }
+    }
+
+    #[inline(always)]
+    fn prepared(&self, mut tet: Tetrahedron) -> Tetrahedron {
+        if !tet.is_nowhere() {
+            tet.clear = f64::from(self.clear[self.cells.cell_of(&tet) as usize]);
+        }
+        tet
+    }
+
+    /// The end of a path at a patch that its walls let through: only rounding does.
+    fn through(&self, patch: usize, triangle: u32, theta: f64, path: &Path) -> Option<Hit> {
+        let wall = self.of_patch.get(patch).copied().flatten()?;
+        let [a, b, c] = self.cells.triangle(patch, triangle)?;
+        let out = unit(crate::vector::cross(sub(b, a), sub(c, a)))?;
+        let meeting = Meeting { theta, position: path.at(theta), normal: scale(out, -1.0) };
+        let wall_velocity = self.walls.list().get(wall)?.velocity;
+        Some(Hit { wall, face: Some(triangle), meeting, wall_velocity })
+    }
+
+    /// How far a path goes from the centre of its cell, m.
+    #[inline(always)]
+    fn span(here: &Tetrahedron, start: Vec3, furthest: f64) -> f64 {
+        here.distance(start) + furthest
+    }
+}
+
+impl Domain for Meshed {
+    type Here = Tetrahedron;
+    const NOWHERE: Tetrahedron = Tetrahedron::NOWHERE;
+
+    fn enter(&self, _time: f64, x: Vec3) -> Tetrahedron {
+        self.prepared(self.cells.find(x))
+    }
+
+    fn enter_ahead(&self, _here: Tetrahedron, x: Vec3, v: Vec3) -> Tetrahedron {
+        self.prepared(self.cells.find_ahead(x, v))
+    }
+
+    fn is_lost(&self, here: Tetrahedron) -> bool {
+        here.is_nowhere()
+    }
+
+    #[inline(always)]
+    fn fluid(&self, here: Tetrahedron, _time: f64, x: Vec3) -> Local {
+        self.cells.sample_in(&here, x)
+    }
+
+    #[inline(always)]
+    fn velocities<const W: usize>(&self, here: &[Tetrahedron; W], _time: &Lanes<W>, x: &Lanes3<W>) -> Lanes3<W> {
+        let mut out = [[0.0; W]; 3];
+        for l in 0..W {
+            let u = here[l].velocity_at([x[0][l], x[1][l], x[2][l]]);
+            for c in 0..3 {
+                out[c][l] = u[c];
+            }
+        }
+        out
+    }
+
+    #[inline(always)]
+    fn longest(&self, here: Tetrahedron, x: Vec3, v: Vec3) -> f64 {
+        BEYOND * here.soonest(x, v)
+    }
+
+    fn room(&self, here: Tetrahedron, _x: Vec3) -> f64 {
+        here.room()
+    }
+
+    #[inline(always)]
+    fn look<const W: usize>(
+        &self,
+        here: &[Tetrahedron; W],
+        start: &Lanes3<W>,
+        path: &[Lanes3<W>; 5],
+        radius: &Lanes<W>,
+    ) -> Ahead<W> {
+        let mut ahead = Ahead::nothing([0.0; W]);
+        let mut further = [0; W];
+        for l in 0..W {
+            let at = |p: &Lanes3<W>| [p[0][l], p[1][l], p[2][l]];
+            let x = at(start);
+            let points = path.each_ref().map(at);
+            let furthest = points.iter().map(|p| dot(*p, *p)).fold(0.0, f64::max).sqrt();
+            let free = Self::span(&here[l], x, furthest) + radius[l] < here[l].clear;
+            further[l] = mask(!(free && here[l].holds(x, &points)));
+        }
+        ahead.look_further(&further);
+        ahead
+    }
+
+    #[inline(always)]
+    fn edge(&self, here: Tetrahedron, path: &Path) -> Next<Tetrahedron> {
+        let Some((theta, side)) = here.exit(path) else { return Next::Clear };
+        let (x, slope) = (path.at(theta), path.slope(theta));
+        match self.cells.behind(&here, side, x, slope) {
+            Behind::Inside(next) => {
+                let into = self.cells.tetrahedron(next).unwrap_or_else(|| self.cells.find_ahead(x, slope));
+                Next::Edge { theta, into: self.prepared(into) }
+            }
+            Behind::Unknown => Next::Edge { theta, into: self.prepared(self.cells.find_ahead(x, slope)) },
+            Behind::Carried(carry, known) => {
+                let into = match known {
+                    Some(tet) => self.cells.tetrahedron(tet).unwrap_or(Tetrahedron::NOWHERE),
+                    None => self.cells.find_ahead(carry.point(x), carry.vector(slope)),
+                };
+                Next::Carried { theta, into: self.prepared(into), carry }
+            }
+            Behind::Patch(patch, triangle) => match self.through(patch, triangle, theta, path) {
+                Some(hit) => Next::Wall(hit),
+                None => Next::Edge { theta, into: Tetrahedron::NOWHERE },
+            },
+        }
+    }
+
+    #[inline(always)]
+    fn first(&self, here: Tetrahedron, path: &Path, radius: f64) -> Next<Tetrahedron> {
+        let edge = self.edge(here, path);
+        let furthest = path.points.iter().map(|p| dot(*p, *p)).fold(0.0, f64::max).sqrt();
+        if Self::span(&here, path.start, furthest) + radius < here.clear {
+            return edge;
+        }
+        super::earlier(edge, self.walls.first(path, radius))
+    }
+
+    #[inline(always)]
+    fn walls(&self) -> &Walls {
+        &self.walls
+    }
+}
+
+impl From<Meshed> for super::AnyDomain {
+    fn from(domain: Meshed) -> Self {
+        Self::Meshed(domain)
+    }
+}

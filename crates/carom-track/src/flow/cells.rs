@@ -1,0 +1,358 @@
+//! A flow on a mesh of cells, from a finished CFD result.
+//!
+//! Cells are cut into tetrahedra ([`cut`]), in each of which every field is linear between its four nodes: three points of the mesh and
+//! the cell's centre ([`nodes`]). So fields are continuous everywhere and, on the boundary, what the boundary condition says. A sphere
+//! keeps the [`Tetrahedron`] it is in.
+
+mod beyond;
+mod cut;
+mod locate;
+mod nodes;
+mod tetrahedron;
+
+pub(crate) use beyond::carry_spin;
+pub use tetrahedron::Tetrahedron;
+
+use super::Local;
+use crate::geometry::{Bounds, Triangle};
+use crate::vector::{Vec3, add, dot, norm, scale, sub, unit};
+use beyond::{Plane, Wedge};
+use carom_cfd::geometry::{base_points, cell_centres_and_volumes, face_centres_and_areas};
+use carom_cfd::{Carry, Field, Patch, PatchKind, Snapshot};
+use cut::{Cut, NONE};
+use locate::Locator;
+use nodes::Nodes;
+
+/// A flow on a mesh of cells.
+#[derive(Debug)]
+pub struct Cells {
+    cut: Cut,
+    /// Places of the nodes: points, then centres of cells, m.
+    points: Vec<Vec3>,
+    /// Number of the first centre.
+    centres: usize,
+    /// Velocities of the nodes, m/s.
+    velocity: Vec<Vec3>,
+    /// k, m²/s², and ε, m²/s³, of the nodes, where there is turbulence.
+    turbulence: Option<Vec<[f64; 2]>>,
+    patches: Vec<Patch>,
+    plane: Option<Plane>,
+    wedge: Option<Wedge>,
+    locator: Option<Locator>,
+    bounds: Bounds,
+    inverted: usize,
+}
+
+/// What lies behind a side of a tetrahedron.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Behind {
+    /// Another tetrahedron.
+    Inside(u32),
+    /// Not known from the mesh: to be looked for.
+    Unknown,
+    /// A patch that ends the space: its index, and the triangle, counted over the patch.
+    Patch(usize, u32),
+    /// The space goes on elsewhere; with the tetrahedron there, where it is known.
+    Carried(Carry, Option<u32>),
+}
+
+/// A result that no flow can be made of.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CellsError {
+    /// No velocity.
+    #[error("the result has no velocity")]
+    NoVelocity,
+    /// Both empty and wedge patches.
+    #[error("the mesh has empty and wedge patches: it is either plane or axisymmetric")]
+    PlaneAndRound,
+    /// Empty sides that are no plane.
+    #[error("the empty patches are not the two sides of a plane case")]
+    NotPlane,
+    /// Other than two wedges.
+    #[error("the mesh has {count} wedge patches: an axisymmetric case has two, at an angle below 180 degrees")]
+    Wedges {
+        /// How many.
+        count: usize,
+    },
+}
+
+/// C_µ of k-ε and k-ω models: ε = C_µ k ω.
+const C_MU: f64 = 0.09;
+
+impl Cells {
+    /// The flow of a result that was checked ([`carom_cfd::check`]).
+    ///
+    /// # Errors
+    /// [`CellsError`].
+    pub fn new(snapshot: &Snapshot) -> Result<Self, CellsError> {
+        let (mesh, fields) = (&snapshot.mesh, &snapshot.fields);
+        let velocity = fields.velocity.as_ref().ok_or(CellsError::NoVelocity)?;
+        let (face_centres, areas) = face_centres_and_areas(&mesh.points, &mesh.faces);
+        let (cell_centres, _) = cell_centres_and_volumes(mesh, &face_centres, &areas);
+        let count = |kind: &PatchKind| mesh.patches.iter().filter(|p| p.kind == *kind && !p.faces.is_empty()).count();
+        let (empty, wedges) = (count(&PatchKind::Empty), count(&PatchKind::Wedge));
+        let plane = Plane::of(mesh, &areas);
+        let wedge = Wedge::of(mesh, &areas);
+        match (empty, wedges) {
+            (0, 0) => {}
+            (1.., 1..) => return Err(CellsError::PlaneAndRound),
+            (1.., 0) if plane.is_none() => return Err(CellsError::NotPlane),
+            (0, count) if wedge.is_none() => return Err(CellsError::Wedges { count }),
+            _ => {}
+        }
+        let pairs = beyond::pairs(mesh);
+        let nodes = Nodes { mesh, cell_centres: &cell_centres, face_centres: &face_centres, pairs: &pairs };
+        let mut velocity = nodes.values(velocity, |carry, v: Vec3| carry.vector(v));
+        if matches!(fields.velocity, Some(Field::Cells { .. })) {
+            nodes::along_symmetry(mesh, &areas, &mut velocity);
+            if let Some(wedge) = &wedge {
+                wedge.turn_sides(mesh, &mut velocity);
+            }
+        }
+        let scalar = |field: &Field<1>| nodes.values(field, |_, v| v);
+        let k = fields.k.as_ref().map(&scalar);
+        let dissipation = match (&k, &fields.epsilon, &fields.omega) {
+            (Some(_), Some(epsilon), _) => Some(scalar(epsilon)),
+            (Some(k), None, Some(omega)) => {
+                Some(scalar(omega).iter().zip(k).map(|(omega, k)| [C_MU * k[0] * omega[0]]).collect())
+            }
+            _ => None,
+        };
+        let turbulence =
+            k.zip(dissipation).map(|(k, e)| k.iter().zip(&e).map(|(k, e)| [k[0].max(0.0), e[0].max(0.0)]).collect());
+        let base = base_points(mesh, &cell_centres);
+        let cut = Cut::new(mesh, &base);
+        let mut points = mesh.points.clone();
+        let centres = points.len();
+        points.extend(cell_centres);
+        let bounds = Bounds::around(mesh.points.iter().copied());
+        let mut cells = Self {
+            cut,
+            points,
+            centres,
+            velocity,
+            turbulence,
+            patches: mesh.patches.clone(),
+            plane,
+            wedge,
+            locator: None,
+            bounds,
+            inverted: base.inverted.len(),
+        };
+        cells.locator = Some(Locator::new(&cells));
+        Ok(cells)
+    }
+
+    /// How many cells.
+    pub fn len(&self) -> usize {
+        self.cut.cells()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The patches of the mesh.
+    pub fn patches(&self) -> &[Patch] {
+        &self.patches
+    }
+
+    /// The box around it.
+    pub fn bounds(&self) -> Bounds {
+        self.bounds
+    }
+
+    /// Whether it has turbulence.
+    pub fn is_turbulent(&self) -> bool {
+        self.turbulence.is_some()
+    }
+
+    /// Faces whose tetrahedra are turned or flat from whichever corner the face is cut.
+    pub fn inverted(&self) -> usize {
+        self.inverted
+    }
+
+    /// Number of a cell's centre among the nodes.
+    fn centre(&self, cell: usize) -> usize {
+        self.centres + cell
+    }
+
+    /// A point of a plane case put into its plane.
+    fn flat(&self, x: Vec3) -> Vec3 {
+        self.plane.map_or(x, |p| p.put(x))
+    }
+
+    /// The centre of the cell of a tetrahedron, m, and the cell.
+    pub(crate) fn cell_of(&self, here: &Tetrahedron) -> u32 {
+        self.cut.cell(here.id)
+    }
+
+    fn corners(&self, tet: u32) -> ([usize; 3], usize) {
+        let corners = self.cut.triangles[(tet >> 1) as usize].map(|p| p as usize);
+        (corners, self.centre(self.cut.cell(tet) as usize))
+    }
+
+    /// A tetrahedron by its number; `None` if it is flat.
+    pub(crate) fn tetrahedron(&self, tet: u32) -> Option<Tetrahedron> {
+        let (corners, centre) = self.corners(tet);
+        let (origin, velocity) = (self.points[centre], self.velocity[centre]);
+        let mut dual = tetrahedron::dual(corners.map(|c| sub(self.points[c], origin)))?;
+        let changes = corners.map(|c| sub(self.velocity[c], velocity));
+        let mut flat = origin;
+        let (mut at, mut changes_along) = (velocity, changes);
+        if let Some(plane) = &self.plane {
+            flat = plane.put(origin);
+            dual = dual.map(|d| plane.along(d));
+            at = plane.along(at);
+            changes_along = changes.map(|c| plane.along(c));
+        }
+        let gradient = [0, 1, 2].map(|i| [0, 1, 2].map(|j| (0..3).map(|n| changes_along[n][i] * dual[n][j]).sum()));
+        Some(Tetrahedron { origin: flat, dual, velocity: at, gradient, id: tet, clear: 0.0 })
+    }
+
+    /// What is behind a side.
+    pub(crate) fn behind(&self, here: &Tetrahedron, side: usize, x: Vec3, slope: Vec3) -> Behind {
+        if side < 3 {
+            let next = self.cut.beside(here.id, side);
+            return if next == NONE { Behind::Unknown } else { Behind::Inside(next) };
+        }
+        if let Some(next) = self.cut.across(here.id) {
+            return Behind::Inside(next);
+        }
+        let face = self.cut.face(here.id) as usize;
+        let triangle = here.id >> 1;
+        let Some((index, patch)) = self.patches.iter().enumerate().find(|(_, p)| p.faces.contains(&face)) else {
+            return Behind::Unknown;
+        };
+        match &patch.kind {
+            PatchKind::Symmetry => {
+                let corners = self.cut.triangles[triangle as usize].map(|p| self.points[p as usize]);
+                match unit(crate::vector::cross(sub(corners[1], corners[0]), sub(corners[2], corners[0]))) {
+                    Some(normal) => Behind::Carried(beyond::mirror(corners[0], normal), Some(here.id)),
+                    None => Behind::Unknown,
+                }
+            }
+            PatchKind::Wedge => match &self.wedge {
+                Some(wedge) => Behind::Carried(wedge.back(x, slope), None),
+                None => Behind::Unknown,
+            },
+            PatchKind::Cyclic { carry, .. } | PatchKind::CyclicAmi { carry, .. } => Behind::Carried(*carry, None),
+            // met by rounding alone: the fields lie in the plane
+            PatchKind::Empty => Behind::Unknown,
+            _ => Behind::Patch(index, triangle - self.cut.first[patch.faces.start]),
+        }
+    }
+
+    /// The tetrahedron of a point; [`Tetrahedron::NOWHERE`] outside the mesh.
+    pub(crate) fn find(&self, x: Vec3) -> Tetrahedron {
+        let found = self.locator.as_ref().and_then(|l| l.find(self, x));
+        found.and_then(|tet| self.tetrahedron(tet)).unwrap_or(Tetrahedron::NOWHERE)
+    }
+
+    /// The tetrahedron that a sphere at `x` comes into next on its way along `v`.
+    pub(crate) fn find_ahead(&self, x: Vec3, v: Vec3) -> Tetrahedron {
+        const STEP: f64 = 1e-9;
+        let size = norm(sub(self.bounds.max, self.bounds.min));
+        let ahead = unit(v).map_or(x, |way| add(x, scale(way, STEP * size)));
+        let there = self.find(ahead);
+        if there.is_nowhere() { self.find(x) } else { there }
+    }
+
+    /// The centre of a cell, in the plane of a plane case, m.
+    pub(crate) fn middle(&self, cell: usize) -> Vec3 {
+        self.flat(self.points[self.centre(cell)])
+    }
+
+    /// A triangle of a patch.
+    pub(crate) fn triangle(&self, patch: usize, triangle: u32) -> Option<Triangle> {
+        let first = self.cut.first[self.patches.get(patch)?.faces.start];
+        Some(self.cut.triangles.get((first + triangle) as usize)?.map(|p| self.points[p as usize]))
+    }
+
+    /// The triangles of a patch, m; sides turned as the faces are, out of the mesh.
+    pub fn triangles(&self, patch: &Patch) -> Vec<Triangle> {
+        let (from, to) = (self.cut.first[patch.faces.start] as usize, self.cut.first[patch.faces.end] as usize);
+        self.cut.triangles[from..to].iter().map(|t| t.map(|p| self.points[p as usize])).collect()
+    }
+
+    /// The triangles of a patch as a wall: of a plane case far beyond its sides, of a wedge with its neighbours on both sides. Each
+    /// repetition has as many as the patch.
+    pub fn wall(&self, patch: &Patch) -> Vec<Triangle> {
+        const FAR: f64 = 4.0;
+        let triangles = self.triangles(patch);
+        if let Some(plane) = &self.plane {
+            let far = FAR * norm(sub(self.bounds.max, self.bounds.min));
+            let stretch = |x: Vec3| {
+                let side = if dot(x, plane.across) > plane.level { 1.0 } else { -1.0 };
+                add(plane.put(x), scale(plane.across, side * far))
+            };
+            return triangles.iter().map(|t| t.map(stretch)).collect();
+        }
+        let Some(wedge) = &self.wedge else { return triangles };
+        let mut all = triangles.clone();
+        for turn in [-wedge.angle, wedge.angle].map(|a| wedge.turn(a)) {
+            all.extend(triangles.iter().map(|t| t.map(|x| turn.point(x))));
+        }
+        all
+    }
+
+    /// Velocity at a point, m/s; at rest outside the mesh.
+    pub fn velocity(&self, x: Vec3) -> Vec3 {
+        self.find(x).velocity_at(x)
+    }
+
+    /// Everything known at a point; fluid at rest outside the mesh.
+    pub fn sample(&self, x: Vec3) -> Local {
+        self.sample_in(&self.find(x), x)
+    }
+
+    /// No speed within a box is above this, m/s.
+    pub(crate) fn fastest(&self, [low, high]: [Vec3; 2]) -> f64 {
+        let around = Bounds { min: low, max: high };
+        let mut most = 0.0f64;
+        let speed = |p: usize| norm(self.velocity[p]);
+        self.locator.iter().for_each(|l| {
+            l.meeting(&around, |cell| {
+                for tet in self.cut.of_cell(cell as usize) {
+                    let (corners, centre) = self.corners(tet);
+                    most = corners.into_iter().chain([centre]).map(speed).fold(most, f64::max);
+                }
+            });
+        });
+        most
+    }
+
+    /// Everything known at `x`, by the formulas of a tetrahedron.
+    #[inline(always)]
+    pub(crate) fn sample_in(&self, here: &Tetrahedron, x: Vec3) -> Local {
+        let mut local = Local::steady(here.velocity_at(x), here.gradient);
+        if here.is_nowhere() {
+            return local;
+        }
+        if let Some(nodes) = &self.turbulence {
+            let [k, epsilon] = self.blend(here, x, nodes);
+            (local.k, local.epsilon) = (k.max(0.0), epsilon.max(0.0));
+        }
+        local
+    }
+
+    /// A field's value at `x`.
+    #[inline(always)]
+    fn blend<const N: usize>(&self, here: &Tetrahedron, x: Vec3, nodes: &[[f64; N]]) -> [f64; N] {
+        let (corners, centre) = self.corners(here.id);
+        let weights = here.coordinates(x);
+        let at = [corners[0], corners[1], corners[2], centre];
+        let mut sum = [0.0; N];
+        for (weight, node) in weights.into_iter().zip(at) {
+            for (s, v) in sum.iter_mut().zip(nodes[node]) {
+                *s = weight.mul_add(v, *s);
+            }
+        }
+        sum
+    }
+}
+
+#[cfg(test)]
+pub(crate) mod tests;

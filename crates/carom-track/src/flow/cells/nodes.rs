@@ -1,0 +1,156 @@
+//! Fields at the nodes: the points of the mesh, then the centres of its cells.
+//!
+//! A point within the mesh has the mean of the cells around it, weighted by the inverse of the distance of their centres; one on the
+//! boundary that of the boundary's faces around it alone, so that there the flow is what the boundary condition says. These are the
+//! weights of OpenFOAM's `volPointInterpolation` (v1912), so that its `cellPoint` interpolation gives the same field. Sides of plane
+//! and axisymmetric cases, planes of symmetry and cyclic patches are no boundary in this sense.
+
+use crate::vector::{Vec3, dot, norm, scale, sub};
+use carom_cfd::{Carry, Field, Mesh, PatchKind};
+
+/// What to interpolate on.
+pub(super) struct Nodes<'a> {
+    pub mesh: &'a Mesh,
+    pub cell_centres: &'a [Vec3],
+    pub face_centres: &'a [Vec3],
+    /// Points on each pair of cyclic patches: one on a patch, that on its partner, and how it is carried there.
+    pub pairs: &'a [(u32, u32, Carry)],
+}
+
+/// Whether the values of a patch's faces hold at its points.
+pub(super) fn is_boundary(kind: &PatchKind) -> bool {
+    matches!(kind, PatchKind::Wall | PatchKind::Plain)
+}
+
+impl Nodes<'_> {
+    /// Values of points, then of cells' centres. `turn` carries a value as a vector where one has a direction.
+    pub fn values<const N: usize>(
+        &self,
+        field: &Field<N>,
+        turn: impl Fn(&Carry, [f64; N]) -> [f64; N],
+    ) -> Vec<[f64; N]> {
+        match field {
+            Field::Points(points) => {
+                let mut nodes = points.clone();
+                nodes.extend(self.means(points));
+                nodes
+            }
+            Field::Cells { cells, boundary } => {
+                let mut nodes = self.points(cells, boundary, turn);
+                nodes.extend_from_slice(cells);
+                nodes
+            }
+        }
+    }
+
+    /// Cells' values from their points': the mean of the corners of the faces, each face counting once.
+    fn means<const N: usize>(&self, points: &[[f64; N]]) -> Vec<[f64; N]> {
+        let mesh = self.mesh;
+        let mut sums = vec![([0.0; N], 0.0f64); mesh.cells];
+        for face in 0..mesh.faces.len() {
+            let corners = mesh.faces.get(face);
+            let of = [mesh.owner.get(face), mesh.neighbour.get(face)];
+            for (sum, weight) in of.into_iter().flatten().map(|c| *c as usize).map(|c| (c, 1.0)) {
+                let (total, count) = &mut sums[sum];
+                for corner in corners {
+                    let value = points[*corner as usize];
+                    for (t, v) in total.iter_mut().zip(value) {
+                        *t += weight * v;
+                    }
+                }
+                *count += corners.len() as f64;
+            }
+        }
+        sums.into_iter().map(|(sum, n)| sum.map(|s| s / n.max(1.0))).collect()
+    }
+
+    fn points<const N: usize>(
+        &self,
+        cells: &[[f64; N]],
+        boundary: &[[f64; N]],
+        turn: impl Fn(&Carry, [f64; N]) -> [f64; N],
+    ) -> Vec<[f64; N]> {
+        let mesh = self.mesh;
+        let on_boundary = on_boundary(mesh);
+        let mut sums = vec![([0.0; N], 0.0f64); mesh.points.len()];
+        let mut add = |point: u32, centre: Vec3, value: &[f64; N]| {
+            let (sum, weight) = &mut sums[point as usize];
+            let w = 1.0 / norm(sub(mesh.points[point as usize], centre)).max(f64::MIN_POSITIVE);
+            for (s, v) in sum.iter_mut().zip(value) {
+                *s += w * v;
+            }
+            *weight += w;
+        };
+        for patch in mesh.patches.iter().filter(|p| is_boundary(&p.kind)) {
+            for face in patch.faces.clone() {
+                for point in mesh.faces.get(face) {
+                    add(*point, self.face_centres[face], &boundary[face - mesh.inner_faces()]);
+                }
+            }
+        }
+        self.each_cell_point(|cell, point| {
+            if !on_boundary[point as usize] {
+                add(point, self.cell_centres[cell], &cells[cell]);
+            }
+        });
+        self.join(&mut sums, turn);
+        sums.into_iter().map(|(sum, w)| sum.map(|s| if w > 0.0 { s / w } else { 0.0 })).collect()
+    }
+
+    /// Sums of points that are one across a pair of cyclic patches.
+    fn join<const N: usize>(&self, sums: &mut [([f64; N], f64)], turn: impl Fn(&Carry, [f64; N]) -> [f64; N]) {
+        for (from, to, carry) in self.pairs {
+            let ((a, wa), (b, wb)) = (sums[*from as usize], sums[*to as usize]);
+            let (there, back) = (turn(carry, a), turn(&inverse(carry), b));
+            let add = |a: [f64; N], b: [f64; N]| std::array::from_fn(|i| a[i] + b[i]);
+            sums[*from as usize] = (add(a, back), wa + wb);
+            sums[*to as usize] = (add(there, b), wa + wb);
+        }
+    }
+
+    /// Each point of each cell once.
+    fn each_cell_point(&self, mut tell: impl FnMut(usize, u32)) {
+        let mesh = self.mesh;
+        // the last cell that each point was told of would do if faces came cell by cell; they do not
+        let sides = mesh.owner.iter().zip(0..).chain(mesh.neighbour.iter().zip(0..));
+        let mut of: Vec<(u32, u32)> =
+            sides.flat_map(|(cell, face)| mesh.faces.get(face).iter().map(|p| (*cell, *p))).collect();
+        rayon::slice::ParallelSliceMut::par_sort_unstable(&mut of[..]);
+        of.dedup();
+        for (cell, point) in of {
+            tell(cell as usize, point);
+        }
+    }
+}
+
+/// Which points lie on a patch whose values hold at its points.
+pub(super) fn on_boundary(mesh: &Mesh) -> Vec<bool> {
+    let mut on = vec![false; mesh.points.len()];
+    for patch in mesh.patches.iter().filter(|p| is_boundary(&p.kind)) {
+        for point in patch.faces.clone().flat_map(|face| mesh.faces.get(face)) {
+            on[*point as usize] = true;
+        }
+    }
+    on
+}
+
+/// The way back.
+pub(super) fn inverse(carry: &Carry) -> Carry {
+    let r = &carry.rotation;
+    let rotation = [0, 1, 2].map(|i| [r[0][i], r[1][i], r[2][i]]);
+    let translation = rotation.map(|row| -dot(row, carry.translation));
+    Carry { rotation, translation }
+}
+
+/// A velocity less what leads through planes of symmetry, at the points on them.
+pub(super) fn along_symmetry(mesh: &Mesh, face_areas: &[Vec3], velocity: &mut [Vec3]) {
+    for patch in mesh.patches.iter().filter(|p| p.kind == PatchKind::Symmetry) {
+        for face in patch.faces.clone() {
+            let Some(n) = crate::vector::unit(face_areas[face]) else { continue };
+            for point in mesh.faces.get(face) {
+                let v = &mut velocity[*point as usize];
+                *v = sub(*v, scale(n, dot(*v, n)));
+            }
+        }
+    }
+}

@@ -1,0 +1,146 @@
+use super::*;
+use carom_cfd::block::{Kind, block};
+use carom_cfd::{Fields, Mesh};
+
+/// Draws of numbers from 0 to 1 that are the same everywhere.
+pub(crate) struct Dice(u64);
+
+impl Dice {
+    pub fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    pub fn roll(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    pub fn point(&mut self) -> Vec3 {
+        [self.roll(), self.roll(), self.roll()]
+    }
+}
+
+/// A block whose inner points are moved by a share of the cells.
+pub(crate) fn shaken(kind: Kind, n: [usize; 3], share: f64, seed: u64) -> Mesh {
+    let mut mesh = block(kind, n, |x| x);
+    let mut dice = Dice::new(seed);
+    for x in &mut mesh.points {
+        let by = dice.point();
+        for c in 0..3 {
+            if x[c] > 0.0 && x[c] < 1.0 {
+                x[c] += share * (2.0 * by[c] - 1.0) / n[c] as f64;
+            }
+        }
+    }
+    mesh
+}
+
+/// A result with a velocity at every point.
+pub(crate) fn with_velocity(mesh: Mesh, velocity: impl Fn(Vec3) -> Vec3) -> Snapshot {
+    let field = Field::Points(mesh.points.iter().map(|x| velocity(*x)).collect());
+    let fields = Fields { velocity: Some(field), ..Fields::default() };
+    Snapshot { mesh, fields, time: None, notes: Vec::new() }
+}
+
+/// A result with a velocity in every cell and on every face of the boundary.
+pub(crate) fn with_cell_velocity(mesh: Mesh, velocity: impl Fn(Vec3) -> Vec3) -> Snapshot {
+    let (faces, areas) = face_centres_and_areas(&mesh.points, &mesh.faces);
+    let (centres, _) = cell_centres_and_volumes(&mesh, &faces, &areas);
+    let cells = centres.iter().map(|x| velocity(*x)).collect();
+    let boundary = faces[mesh.inner_faces()..].iter().map(|x| velocity(*x)).collect();
+    let fields = Fields { velocity: Some(Field::Cells { cells, boundary }), ..Fields::default() };
+    Snapshot { mesh, fields, time: None, notes: Vec::new() }
+}
+
+fn close(a: Vec3, b: Vec3, by: f64) -> bool {
+    norm(sub(a, b)) < by
+}
+
+#[test]
+fn a_uniform_field_is_exact_and_a_linear_one_where_cells_are_even() {
+    let u = |x: Vec3| [1.0 + 2.0 * x[0] - x[1], 0.5 * x[2], x[0] + x[1] - 3.0 * x[2]];
+    for kind in Kind::ALL {
+        // even bricks and what is cut of them have their centres at the mean of their points
+        let cells = Cells::new(&with_velocity(block(kind, [4, 4, 2], |x| x), u)).unwrap();
+        let mut dice = Dice::new(3);
+        for _ in 0..200 {
+            let x = dice.point();
+            let here = cells.find(x);
+            assert!(!here.is_nowhere(), "{kind:?} {x:?}");
+            // a prism's and a pyramid's mean of corners counts corners by their faces
+            if matches!(kind, Kind::Hexahedra | Kind::Tetrahedra) {
+                assert!(close(here.velocity_at(x), u(x), 1e-12), "{kind:?} {x:?}");
+                let local = cells.sample_in(&here, x);
+                assert!((local.gradient[0][0] - 2.0).abs() < 1e-10 && (local.gradient[2][2] + 3.0).abs() < 1e-10);
+            }
+        }
+        let uniform = Cells::new(&with_cell_velocity(shaken(kind, [4, 4, 2], 0.2, 5), |_| [1.0, 2.0, 3.0])).unwrap();
+        for _ in 0..100 {
+            assert!(close(uniform.velocity(dice.point()), [1.0, 2.0, 3.0], 1e-12));
+        }
+    }
+}
+
+#[test]
+fn fields_are_continuous_across_tetrahedra() {
+    let u = |x: Vec3| [x[1] * x[1], x[0] * x[2], 1.0 - x[0] * x[1]];
+    for kind in Kind::ALL {
+        for snapshot in
+            [with_velocity, with_cell_velocity].map(|f: fn(Mesh, _) -> Snapshot| f(shaken(kind, [4, 3, 2], 0.2, 11), u))
+        {
+            let cells = Cells::new(&snapshot).unwrap();
+            let mut dice = Dice::new(7);
+            for _ in 0..10 {
+                let (a, b) = (dice.point(), dice.point());
+                let steps = 50;
+                for i in 0..steps {
+                    let at = |s: f64| [0, 1, 2].map(|c| a[c] + s * (b[c] - a[c]));
+                    let (s, t) = (i as f64 / steps as f64, (i as f64 + 1e-6) / steps as f64);
+                    // 2e-8 of the way on, the fluid is no faster than its steepest gradient makes it
+                    let change = norm(sub(cells.velocity(at(s)), cells.velocity(at(t))));
+                    assert!(change < 1e-5, "{kind:?} {:?} {change}", at(s));
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn on_the_boundary_the_boundary_condition_holds() {
+    // walls at rest below and above a stream
+    let mut snapshot = with_cell_velocity(shaken(Kind::Polyhedra, [6, 5, 4], 0.2, 1), |_| [1.0, 0.0, 0.0]);
+    let inner = snapshot.mesh.inner_faces();
+    if let Some(Field::Cells { boundary, .. }) = &mut snapshot.fields.velocity {
+        for patch in &snapshot.mesh.patches[2..4] {
+            patch.faces.clone().for_each(|f| boundary[f - inner] = [0.0; 3]);
+        }
+    }
+    let cells = Cells::new(&snapshot).unwrap();
+    let mut dice = Dice::new(2);
+    for _ in 0..200 {
+        let x = dice.point();
+        // away from the rims, where the sides' faces speak too
+        let x = [0.25 + 0.5 * x[0], if x[1] < 0.5 { 0.0 } else { 1.0 }, 0.35 + 0.3 * x[2]];
+        assert!(close(cells.velocity(x), [0.0; 3], 1e-12), "{x:?} {:?}", cells.velocity(x));
+    }
+}
+
+#[test]
+fn a_point_is_in_the_tetrahedron_found_and_none_is_found_outside() {
+    for kind in Kind::ALL {
+        let cells = Cells::new(&with_velocity(shaken(kind, [5, 4, 3], 0.3, 9), |x| x)).unwrap();
+        let mut dice = Dice::new(4);
+        for _ in 0..1000 {
+            let x = dice.point();
+            let here = cells.find(x);
+            assert!(!here.is_nowhere(), "{kind:?} {x:?}");
+            assert!(here.coordinates(x).iter().all(|l| *l > -1e-9));
+        }
+        for x in [[-1e-3, 0.5, 0.5], [0.5, 1.001, 0.5], [f64::NAN; 3]] {
+            assert!(cells.find(x).is_nowhere());
+        }
+    }
+}
