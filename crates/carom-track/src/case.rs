@@ -3,6 +3,7 @@
 //! Read with places, so that every error points at the line: unknown keys, wrong units, unknown laws and materials (with
 //! the nearest known one), walls that contradict each other, injections inside a wall, a run that nothing would end.
 
+mod cells;
 mod check;
 mod files;
 mod flow;
@@ -82,21 +83,27 @@ impl Case {
     /// # Errors
     /// What is wrong, with its place in `text` ([`CaseError::located`] puts the line in front).
     pub fn from_toml(text: &str, name: &Path, library: &Library) -> Result<Self, CaseError> {
-        let read: CaseText = toml::from_str(text)?;
+        let mut read: CaseText = toml::from_str(text)?;
         let laws = carom::spec::parse_laws(text)?;
         let files = Files::new(name, text);
         let seed = read.seed.map_or(1, |s| s.0);
         let (fluid, gas) = fluid::fluid(read.fluid.as_ref())?;
         let gradient = read.fluid.as_ref().and_then(|f| f.value.temperature_gradient.as_ref());
-        let flow = flow::flow(read.flow.as_ref(), &fluid, &files)?;
         let mut notes = Vec::new();
+        let flow = flow::flow(read.flow.as_ref(), &read.wall, &fluid, &files, &mut notes)?;
         let flow = fluid::in_its_gas(flow, gas, read.flow.as_ref(), &mut notes)?;
+        let cells = if let Flow::Cells(cells) = &flow { Some(cells.clone()) } else { None };
+        read.wall = cells::walls(read.wall, cells.as_deref())?;
+        if let (Some(cells), Some(text)) = (&cells, &read.flow) {
+            cells::all_named(cells, &read.wall, text)?;
+        }
+        let openings = cells::Openings { cells: cells.as_deref(), walls: &read.wall };
         let dynamics = flow::dynamics(&read.forces, (fluid, gas), gradient, flow.varies_gas())?;
         let injections = read
             .injection
             .iter()
             .enumerate()
-            .map(|(i, at)| injection::read(at, i, seed, &fluid, dynamics.forces.slip, &flow, library))
+            .map(|(i, at)| injection::read(at, i, seed, (&fluid, dynamics.forces.slip), &flow, &openings, library))
             .collect::<Result<Vec<_>, _>>()?;
         if injections.is_empty() {
             return Err(LawError::new("the case injects nothing").help("add an [[injection]]"));
@@ -104,7 +111,11 @@ impl Case {
         countable(&injections)?;
         injection::distinct(read.injection.iter().filter_map(|i| i.value.name.as_ref()), "injection")?;
         injection::distinct(read.wall.iter().map(|w| &w.value.name), "wall")?;
-        let walls = read.wall.iter().map(|w| wall::read(w, &files, &mut notes)).collect::<Result<Vec<_>, _>>()?;
+        let walls = read
+            .wall
+            .iter()
+            .map(|w| wall::read(w, cells.as_deref(), &files, &mut notes))
+            .collect::<Result<Vec<_>, _>>()?;
         notes.extend(triangles::left_out(read.wall.iter().filter_map(|w| w.value.stl.as_ref()), &files));
         let largest = injections.iter().map(|i| i.largest).fold(0.0, f64::max);
         wall::contradictions(&read.wall, &walls, largest)?;
@@ -121,6 +132,10 @@ impl Case {
         let settings = settings(&read, seed, &behaviors)?;
         injected_in_the_fluid(&walls, &injections, &behaviors)?;
         sampled_starts(&walls, &flow, &injections, &behaviors)?;
+        if let Some(cells) = &cells {
+            cells::inside(cells, &injections)?;
+            cells::chance(cells, &read.forces, &dynamics)?;
+        }
         // materials come from a library that may change: what they are made of tells, and the text tells the rest
         let fingerprint =
             materials(&read, &laws, library).iter().fold(files.fingerprint(), |f, m| f.with_material(m)).number();
@@ -182,7 +197,8 @@ impl Case {
             let count = injected.injection.count();
             if number < first + count {
                 let fluid = |time, x| self.domain.fluid(time, x).velocity;
-                let start = injected.injection.particle(number - first, fluid);
+                let fits = |x, radius| self.domain.geometry().overlap(x, radius).is_none();
+                let start = injected.injection.particle_where(number - first, fluid, fits);
                 return Some(Particle::new(number, index, &start));
             }
             first += count;
@@ -266,11 +282,13 @@ fn sampled_starts(
 ) -> Result<(), LawError> {
     const SAMPLE: u64 = 1000;
     for (index, injected) in injections.iter().enumerate() {
+        // of an opening only where there is room
+        let opening = injected.injection.plan().source.is_opening();
         for i in 0..injected.injection.count().min(SAMPLE) {
             let start = injected.injection.particle(i, |_, x| flow.velocity(x));
             for (wall, behavior) in walls.iter().zip(behaviors) {
                 let reach = 0.5 * start.diameter;
-                if wall.shape.distance(start.position) - wall.clearance(reach) < -1e-9 * reach {
+                if !opening && wall.shape.distance(start.position) - wall.clearance(reach) < -1e-9 * reach {
                     let (name, wall, x, d) = (&injected.name, &wall.name, start.position, start.diameter);
                     return Err(LawError::new(format!(
                         "{name} starts inside wall '{wall}': a sphere of {d} m at {x:?} m"
@@ -315,6 +333,9 @@ fn bins(output: &OutputText) -> Result<Bins, LawError> {
 fn injected_in_the_fluid(walls: &[Wall], injections: &[Injected], behaviors: &[Behavior]) -> Result<(), LawError> {
     for injected in injections {
         let plan = injected.injection.plan();
+        if plan.source.is_opening() {
+            continue;
+        }
         for x in injection::hull(&plan.source) {
             for (wall, behavior) in walls.iter().zip(behaviors) {
                 let gap = wall.shape.distance(x) - wall.clearance(0.5 * injected.largest);

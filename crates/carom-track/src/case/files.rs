@@ -54,6 +54,32 @@ impl<'a> Files<'a> {
         Ok(bytes)
     }
 
+    /// The path of a file or folder beside the case.
+    pub fn beside(&self, name: &str) -> std::path::PathBuf {
+        self.folder.join(name)
+    }
+
+    /// Takes a mesh and its velocities into the fingerprint.
+    pub fn take_in(&self, snapshot: &carom_cfd::Snapshot) {
+        let mut sum = self.fingerprint.get();
+        let mut word = |w: u64| sum = Fingerprint((sum.0 ^ w).wrapping_mul(0x0100_0000_01b3).rotate_left(23));
+        snapshot.mesh.points.iter().flatten().for_each(|c| word(c.to_bits()));
+        snapshot.mesh.faces.corners.iter().chain(&snapshot.mesh.owner).for_each(|i| word(u64::from(*i)));
+        match &snapshot.fields.velocity {
+            Some(carom_cfd::Field::Points(values)) => values.iter().flatten().for_each(|c| word(c.to_bits())),
+            Some(carom_cfd::Field::Cells { cells, boundary }) => {
+                cells.iter().chain(boundary).flatten().for_each(|c| word(c.to_bits()));
+            }
+            None => {}
+        }
+        let scalars = [&snapshot.fields.k, &snapshot.fields.epsilon, &snapshot.fields.omega];
+        for field in scalars.into_iter().flatten() {
+            let (carom_cfd::Field::Points(values) | carom_cfd::Field::Cells { cells: values, .. }) = field;
+            values.iter().flatten().for_each(|c| word(c.to_bits()));
+        }
+        self.fingerprint.set(sum);
+    }
+
     /// Of the text and all files read.
     pub fn fingerprint(&self) -> Fingerprint {
         self.fingerprint.get()

@@ -2,7 +2,7 @@
 
 use super::check::{needed, placed, unknown, word, wrong};
 use super::files::Files;
-use super::text::{FlowText, ForcesText, Si, WallDragText};
+use super::text::{FlowText, ForcesText, Si, WallDragText, WallText};
 use crate::dynamics::Dynamics;
 use crate::flow::{Channel, Flow, Fluid, Gas, Named, Pipe, Profile, RoundJet, SlotJet, Stagnation, Symmetry, Table};
 use crate::force::{Drag, Forces, Life, Model, NearWall, RandomWalk, Slip, Thermophoresis, WallDrag};
@@ -11,13 +11,20 @@ use carom::spec::At;
 use carom::units::TemperatureGradient;
 use carom_table::quoted;
 
-const KINDS: [&str; 8] = ["still", "uniform", "channel", "pipe", "stagnation", "slot-jet", "round-jet", "table"];
+const KINDS: [&str; 10] =
+    ["still", "uniform", "channel", "pipe", "stagnation", "slot-jet", "round-jet", "table", "openfoam", "vtk"];
 const COLUMNS: [&str; 11] = ["x", "y", "z", "u", "v", "w", "k", "epsilon", "omega", "T", "rho"];
 const PROFILES: [(&str, Profile); 3] =
     [("plug", Profile::Plug), ("laminar", Profile::Laminar), ("turbulent", Profile::Turbulent)];
 
 /// The flow; still where none is given. Files are looked for beside the case.
-pub(super) fn flow(text: Option<&At<FlowText>>, fluid: &Fluid, files: &Files) -> Result<Flow, LawError> {
+pub(super) fn flow(
+    text: Option<&At<FlowText>>,
+    walls: &[At<WallText>],
+    fluid: &Fluid,
+    files: &Files,
+    notes: &mut Vec<String>,
+) -> Result<Flow, LawError> {
     let Some(text) = text else { return Ok(Flow::Still) };
     let kind = text.kind.value.as_str();
     refuse_others(text, kind)?;
@@ -61,6 +68,7 @@ pub(super) fn flow(text: Option<&At<FlowText>>, fluid: &Fluid, files: &Files) ->
             let named = named(text.columns.as_ref())?;
             Flow::Table(Table::from_named(&file.value, &bytes, &named).map_err(|e| failed(&e))?)
         }
+        "openfoam" | "vtk" => Flow::Cells(super::cells::read(text, walls, files, notes)?),
         _ => return Err(unknown(&text.kind, "kind of flow", KINDS.into_iter())),
     })
 }
@@ -93,6 +101,10 @@ fn refuse_others(text: &At<FlowText>, kind: &str) -> Result<(), LawError> {
         ("speed", text.speed.as_ref().map(|a| a.span.clone())),
         ("file", text.file.as_ref().map(|a| a.span.clone())),
         ("columns", text.columns.as_ref().map(|a| a.span.clone())),
+        ("case", text.case.as_ref().map(|a| a.span.clone())),
+        ("time", text.time.as_ref().map(|a| a.span.clone())),
+        ("fields", text.fields.as_ref().map(|a| a.span.clone())),
+        ("patches", text.patches.as_ref().map(|a| a.span.clone())),
     ];
     let keys: &[&str] = match kind {
         "still" => &[],
@@ -103,6 +115,8 @@ fn refuse_others(text: &At<FlowText>, kind: &str) -> Result<(), LawError> {
         "slot-jet" => &["width", "speed"],
         "round-jet" => &["diameter", "speed"],
         "table" => &["file", "columns"],
+        "openfoam" => &["case", "time", "fields"],
+        "vtk" => &["file", "fields", "patches"],
         _ => return Ok(()),
     };
     for (key, span) in given {

@@ -1,7 +1,8 @@
 //! `[[injection]]`.
 
+use super::cells::Openings;
 use super::check::{positive, unknown, word, wrong};
-use super::text::{InjectionText, PlaceText, PlacesText, Si, SizeText, SizesText, VelocityText};
+use super::text::{InjectionText, PatchText, PlaceText, PlacesText, Si, SizeText, SizesText, VelocityText};
 use crate::flow::{Flow, Fluid};
 use crate::force::Slip;
 use crate::injection::{
@@ -32,9 +33,9 @@ pub(super) fn read(
     at: &At<InjectionText>,
     index: usize,
     seed: u64,
-    fluid: &Fluid,
-    slip: Slip,
+    (fluid, slip): (&Fluid, Slip),
     flow: &Flow,
+    openings: &Openings,
     library: &Library,
 ) -> Result<Injected, LawError> {
     let text = &at.value;
@@ -57,7 +58,7 @@ pub(super) fn read(
     let ways = [("uniform", false), ("flux", true)];
     let by_flux = text.distribution.as_ref().map_or(Ok(false), |d| word(d, "distribution", &ways))?;
     let plan = Plan {
-        source: place(&text.position)?,
+        source: place(&text.position, openings)?,
         velocity: match text.velocity.as_ref().map(|v| &v.value) {
             Some(VelocityText::Given(v)) => Start::Velocity(*v),
             Some(VelocityText::Fluid) => Start::Fluid,
@@ -196,12 +197,19 @@ fn sizes(at: &At<SizeText>) -> Result<(Sizes, f64), LawError> {
     }
 }
 
-fn place(at: &At<PlaceText>) -> Result<Source, LawError> {
+fn place(at: &At<PlaceText>, openings: &Openings) -> Result<Source, LawError> {
     let text: &PlacesText = match &at.value {
         PlaceText::Point(p) => return Ok(Source::Point(*p)),
         PlaceText::Place(text) => text,
     };
-    match (&text.room, &text.disc, &text.patch) {
+    let patch = match &text.patch {
+        Some(PatchText::Named(name)) if text.room.is_none() && text.disc.is_none() => {
+            return openings.find(name).map_err(|e| e.at(at.span.clone()));
+        }
+        Some(PatchText::Given(patch)) => Some(patch),
+        Some(PatchText::Named(_)) | None => None,
+    };
+    match (&text.room, &text.disc, patch) {
         (Some([a, b]), None, None) => {
             let (a, b) = (a.si(), b.si());
             Ok(Source::Box { low: [0, 1, 2].map(|i| a[i].min(b[i])), high: [0, 1, 2].map(|i| a[i].max(b[i])) })
@@ -233,7 +241,9 @@ pub(super) fn hull(source: &Source) -> Vec<[f64; 3]> {
         Source::Patch { corner, sides } => {
             vec![*corner, add(*corner, sides[0]), add(*corner, sides[1]), add(*corner, add(sides[0], sides[1]))]
         }
-        Source::Triangles(triangles) => triangles.iter().flatten().copied().collect(),
+        Source::Triangles(triangles) | Source::Opening { triangles, .. } => {
+            triangles.iter().flatten().copied().collect()
+        }
     }
 }
 

@@ -13,7 +13,7 @@ use serde::de::{Deserialize, Deserializer, Error, MapAccess, Visitor};
 use std::fmt;
 
 /// `true`, `"rolling"`, or a table.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct RemovalText {
     wanted: bool,
     mode: Option<At<String>>,

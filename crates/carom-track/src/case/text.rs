@@ -66,6 +66,32 @@ pub(super) struct FlowText {
     pub speed: Option<At<Speed>>,
     pub file: Option<At<String>>,
     pub columns: Option<At<crate::flow::Named>>,
+    pub case: Option<At<String>>,
+    pub time: Option<At<TimeName>>,
+    pub fields: Option<At<FieldsText>>,
+    pub patches: Option<At<String>>,
+}
+
+/// The name of a time, written as text or as a number.
+#[derive(Debug, Clone, serde::Deserialize)]
+#[serde(untagged, expecting = "the name of a time such as \"500\", or \"latest\", is wanted")]
+pub(super) enum TimeName {
+    Name(String),
+    Whole(u64),
+    Number(f64),
+}
+
+/// Names of the fields of a finished result, where they are not the usual ones.
+#[derive(Debug, Default, Clone, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct FieldsText {
+    pub velocity: Option<String>,
+    pub k: Option<String>,
+    pub epsilon: Option<String>,
+    pub omega: Option<String>,
+    pub density: Option<String>,
+    pub temperature: Option<String>,
+    pub pressure: Option<String>,
 }
 
 #[derive(Debug, Default, serde::Deserialize)]
@@ -116,10 +142,12 @@ pub(super) struct RandomWalkText {
     pub time_scale: Option<At<Number>>,
 }
 
-#[derive(Debug, serde::Deserialize)]
+#[derive(Debug, Clone, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct WallText {
+    #[serde(default = "unnamed")]
     pub name: At<String>,
+    pub patch: Option<At<String>>,
     pub plane: Option<At<PlaneText>>,
     pub cylinder: Option<At<CylinderText>>,
     #[serde(rename = "box")]
@@ -134,14 +162,19 @@ pub(super) struct WallText {
     pub velocity: Option<At<[Speed; 3]>>,
 }
 
-#[derive(Debug, serde::Deserialize)]
+/// The name of a wall that has none yet: patches bring their own.
+fn unnamed() -> At<String> {
+    At::from(String::new())
+}
+
+#[derive(Debug, Clone, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct PlaneText {
     pub point: [Length; 3],
     pub normal: At<[f64; 3]>,
 }
 
-#[derive(Debug, serde::Deserialize)]
+#[derive(Debug, Clone, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct CylinderText {
     pub point: [Length; 3],
@@ -150,7 +183,7 @@ pub(super) struct CylinderText {
     pub fluid: Option<At<String>>,
 }
 
-#[derive(Debug, serde::Deserialize)]
+#[derive(Debug, Clone, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct StlText {
     pub file: At<String>,
@@ -241,9 +274,20 @@ pub(super) struct DiscText {
     pub radius: Length,
 }
 
+/// A patch of a mesh by its name, or a parallelogram.
+#[derive(Debug, serde::Deserialize)]
+#[serde(
+    untagged,
+    expecting = "the name of a patch of the mesh, or { corner = [...], sides = [[...], [...]] } is wanted"
+)]
+pub(super) enum PatchText {
+    Named(String),
+    Given(SidesText),
+}
+
 #[derive(Debug, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct PatchText {
+pub(super) struct SidesText {
     pub corner: [Length; 3],
     pub sides: [[Length; 3]; 2],
 }

@@ -5,6 +5,7 @@ use super::files::Files;
 use super::injection::{Injected, no_such_law};
 use super::text::{Si, WallText};
 use crate::domain::{ContactAt, Wall};
+use crate::flow::Cells;
 use crate::geometry::{Cylinder, Mesh, Plane, Room, Shape};
 use crate::tracker::Behavior;
 use crate::vector::{dot, norm, scale, sub, unit};
@@ -17,20 +18,34 @@ use std::collections::BTreeMap;
 /// What a wall may be besides a law of the case.
 pub(super) const WORDS: [&str; 4] = ["trap", "escape", "wall-jet", "reflect"];
 
+/// What a patch of a mesh may be besides.
+pub(super) const SYMMETRY: &str = "symmetry";
+
 /// The laws as written, by name.
 pub(super) type Laws = BTreeMap<String, At<LawSpec>>;
 
 /// The geometry of a wall. What files were read for it is added to `notes`.
-pub(super) fn read(at: &At<WallText>, files: &Files, notes: &mut Vec<String>) -> Result<Wall, LawError> {
+pub(super) fn read(
+    at: &At<WallText>,
+    cells: Option<&Cells>,
+    files: &Files,
+    notes: &mut Vec<String>,
+) -> Result<Wall, LawError> {
     let text = &at.value;
-    let shape = shape(at, files, notes)?;
+    let shape = shape(at, cells, files, notes)?;
     let contacts = [("surface", ContactAt::Surface), ("center", ContactAt::Center)];
     let contact_at = text.contact_at.as_ref().map_or(Ok(ContactAt::Surface), |c| word(c, "contact_at", &contacts))?;
     let velocity = velocity(text, &shape)?;
-    Ok(Wall { name: text.name.value.clone(), shape, contact_at, velocity, patch: None })
+    Ok(Wall {
+        name: text.name.value.clone(),
+        shape,
+        contact_at,
+        velocity,
+        patch: text.patch.as_ref().map(|p| p.value.clone()),
+    })
 }
 
-fn shape(at: &At<WallText>, files: &Files, notes: &mut Vec<String>) -> Result<Shape, LawError> {
+fn shape(at: &At<WallText>, cells: Option<&Cells>, files: &Files, notes: &mut Vec<String>) -> Result<Shape, LawError> {
     let text = &at.value;
     let name = &text.name.value;
     let mut shapes = Vec::new();
@@ -57,6 +72,12 @@ fn shape(at: &At<WallText>, files: &Files, notes: &mut Vec<String>) -> Result<Sh
         let (min, max) = corners(block)?;
         shapes.extend(Mesh::block(min, max).map(Shape::Mesh));
     }
+    if let (Some(name), Some(cells)) = (&text.patch, cells) {
+        let patch = cells.patches().iter().find(|p| p.name == name.value);
+        let mesh = patch.and_then(|p| Mesh::new(&cells.wall(p)));
+        let mesh = mesh.ok_or_else(|| wrong(name, format!("patch '{}' has no face with an area", name.value)))?;
+        shapes.push(Shape::Mesh(mesh));
+    }
     if let Some(stl) = &text.stl {
         let (mesh, note) = super::triangles::mesh(stl, name, files)?;
         shapes.push(Shape::Mesh(mesh));
@@ -64,11 +85,10 @@ fn shape(at: &At<WallText>, files: &Files, notes: &mut Vec<String>) -> Result<Sh
     }
     match (shapes.pop(), shapes.is_empty()) {
         (Some(shape), true) => Ok(shape),
-        (None, _) => {
-            Err(wrong(at, format!("wall '{name}' has no shape")).help("give plane, cylinder, box, block or stl"))
-        }
+        (None, _) => Err(wrong(at, format!("wall '{name}' has no shape"))
+            .help("give plane, cylinder, box, block or stl; or patch, where the flow is a mesh")),
         _ => Err(wrong(at, format!("wall '{name}' has more than one shape"))
-            .help("keep one of plane, cylinder, box, block and stl")),
+            .help("keep one of plane, cylinder, box, block, stl and patch")),
     }
 }
 

@@ -298,6 +298,21 @@ impl Cells {
         all
     }
 
+    /// Whether a point lies in a cell.
+    pub fn holds(&self, x: Vec3) -> bool {
+        !self.find(x).is_nowhere()
+    }
+
+    /// Whether the space goes on elsewhere than where its sides are: planes of symmetry, wedges, cyclic patches.
+    pub fn goes_on(&self) -> bool {
+        self.patches.iter().any(|p| {
+            matches!(
+                p.kind,
+                PatchKind::Symmetry | PatchKind::Wedge | PatchKind::Cyclic { .. } | PatchKind::CyclicAmi { .. }
+            )
+        })
+    }
+
     /// Velocity at a point, m/s; at rest outside the mesh.
     pub fn velocity(&self, x: Vec3) -> Vec3 {
         self.find(x).velocity_at(x)

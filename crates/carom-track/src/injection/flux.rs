@@ -85,6 +85,7 @@ impl Inflow {
                 (cut(*corner, *sides, unit(cross(sides[0], sides[1])).unwrap_or_default()), true)
             }
             Source::Triangles(triangles) => (triangles.iter().filter_map(|t| triangle(*t)).collect(), true),
+            Source::Opening { triangles, .. } => (triangles.iter().filter_map(|t| triangle(*t)).collect(), false),
         };
         let mut inflow = Self { tiles, shares: Vec::new(), disc, outflow: 0.0 };
         let [mut forward, mut back] = inflow.look(flow);
@@ -138,14 +139,14 @@ impl Inflow {
         })
     }
 
-    /// A start; the fluid's velocity is asked where one is tried.
-    pub fn point(&self, draws: &mut Stream, velocity: impl Fn(Vec3) -> Vec3) -> Vec3 {
+    /// A start and the way the fluid flows in there; the fluid's velocity is asked where one is tried.
+    pub fn point(&self, draws: &mut Stream, velocity: impl Fn(Vec3) -> Vec3) -> (Vec3, Vec3) {
         loop {
             let [which, a, b, keep] = draws.uniforms();
             let tile = &self.tiles[self.shares.partition_point(|s| *s <= which).min(self.tiles.len() - 1)];
             let x = tile.at(a, b);
             if self.counts(x) && keep * tile.bound < dot(velocity(x), tile.normal) {
-                return x;
+                return (x, tile.normal);
             }
         }
     }
@@ -191,7 +192,7 @@ mod tests {
     fn starts(source: &Source, flow: &Flow) -> Vec<Vec3> {
         let inflow = Inflow::new(source, flow).unwrap();
         let draws = |i| Stream::new(SEED, i, Purpose::Injection, 0);
-        (0..N).map(|i| inflow.point(&mut draws(i), |x| flow.velocity(x))).collect()
+        (0..N).map(|i| inflow.point(&mut draws(i), |x| flow.velocity(x)).0).collect()
     }
 
     /// χ² of ten classes of equal share, by the distribution function; 27.9 is passed by chance once in a thousand.

@@ -230,20 +230,45 @@ impl Injection {
     /// The start of particle `i`, 0 ≤ `i` < [`Injection::count`];
     /// `fluid_velocity` is asked at its time and place, for [`Start::Fluid`], and wherever an injection by flux tries to start.
     pub fn particle(&self, i: u64, fluid_velocity: impl Fn(f64, [f64; 3]) -> [f64; 3]) -> Injected {
+        self.particle_where(i, fluid_velocity, |_, _| true)
+    }
+
+    /// Likewise; `fits` says whether there is room for a sphere of a radius (m) at a place. In an opening, starts without room are drawn
+    /// again, as an aerosol has none there.
+    pub fn particle_where(
+        &self,
+        i: u64,
+        fluid_velocity: impl Fn(f64, [f64; 3]) -> [f64; 3],
+        fits: impl Fn([f64; 3], f64) -> bool,
+    ) -> Injected {
+        /// Draws after which an opening has no room at all.
+        const MOST_DRAWS: u32 = 1000;
         let mut draws = Stream::new(self.seed, i, Purpose::Injection, self.index);
         let size = self.sampler.quantile(draws.open_uniform());
         let share = (i as f64 + draws.uniform()) / self.count as f64;
         let Window { start, stop } = self.plan.window;
         let time = start + (stop - start) * share;
-        let position = match &self.inflow {
-            Some(inflow) => inflow.point(&mut draws, |x| fluid_velocity(time, x)),
-            None => self.place.point(&mut draws),
-        };
         let density = self.plan.density;
         let diameter = match self.plan.diameter {
             Diameter::Geometric => size,
             Diameter::Aerodynamic(slip) => geometric_diameter(size, density, slip, self.fluid.mean_free_path),
         };
+        let mut point = || match &self.inflow {
+            Some(inflow) => inflow.point(&mut draws, |x| fluid_velocity(time, x)),
+            None => self.place.point(&mut draws),
+        };
+        let (mut position, facing) = point();
+        if let Source::Opening { inset, .. } = self.plan.source {
+            let radius = 0.5 * diameter;
+            let inside = |(x, facing): ([f64; 3], [f64; 3])| [0, 1, 2].map(|c| x[c] + inset * radius * facing[c]);
+            position = inside((position, facing));
+            for _ in 0..MOST_DRAWS {
+                if fits(position, radius) {
+                    break;
+                }
+                position = inside(point());
+            }
+        }
         let velocity = match self.plan.velocity {
             Start::Velocity(v) => v,
             Start::Fluid => fluid_velocity(time, position),

@@ -34,6 +34,20 @@ pub enum Source {
     },
     /// A triangulated surface, evenly by area.
     Triangles(Vec<[[f64; 3]; 3]>),
+    /// An opening of a space, evenly by area; its triangles turn so that they face into the space.
+    Opening {
+        /// Corners, m.
+        triangles: Vec<[[f64; 3]; 3]>,
+        /// How far inside centres start, radii.
+        inset: f64,
+    },
+}
+
+impl Source {
+    /// Whether it is an opening.
+    pub fn is_opening(&self) -> bool {
+        matches!(self, Self::Opening { .. })
+    }
 }
 
 /// A checked source.
@@ -92,13 +106,13 @@ impl Place {
                     })
                 }
             }
-            Source::Triangles(triangles) => surface(triangles),
+            Source::Triangles(triangles) | Source::Opening { triangles, .. } => surface(triangles),
         }
     }
 
-    /// A point of it.
-    pub fn point(&self, draws: &mut Stream) -> Vec3 {
-        match self {
+    /// A point of it, and of a surface the direction it faces there.
+    pub fn point(&self, draws: &mut Stream) -> (Vec3, Vec3) {
+        let x = match self {
             Self::Point(x) => *x,
             Self::Box { low, extent } => {
                 let u: Vec3 = draws.uniforms();
@@ -120,9 +134,11 @@ impl Place {
                     // the far half of the parallelogram folds onto the triangle
                     (a, b) = (1.0 - a, 1.0 - b);
                 }
-                add(*corner, add(scale(sides[0], a), scale(sides[1], b)))
+                let facing = unit(cross(sides[0], sides[1])).unwrap_or_default();
+                return (add(*corner, add(scale(sides[0], a), scale(sides[1], b))), facing);
             }
-        }
+        };
+        (x, [0.0; 3])
     }
 }
 
