@@ -188,7 +188,7 @@ mod tests {
 
     fn points(source: Source) -> Vec<Vec3> {
         let place = Place::new(&source).unwrap();
-        (0..N).map(|i| place.point(&mut Stream::new(SEED, i, Purpose::Injection, 0))).collect()
+        (0..N).map(|i| place.point(&mut Stream::new(SEED, i, Purpose::Injection, 0)).0).collect()
     }
 
     fn share(points: &[Vec3], inside: impl Fn(&Vec3) -> bool) -> f64 {
