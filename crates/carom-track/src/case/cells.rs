@@ -6,6 +6,7 @@ use super::text::{FieldsText, FlowText, TimeName, WallText};
 use super::wall::SYMMETRY;
 use crate::flow::Cells;
 use crate::injection::Source;
+use crate::vector::{cross, dot, norm, sub};
 use carom::LawError;
 use carom::error::did_you_mean;
 use carom::spec::At;
@@ -15,6 +16,8 @@ use std::sync::Arc;
 
 /// A little more than touching: rounding makes no overlap.
 const CLEAR: f64 = 1e-6;
+/// Share of gravity across a plane of symmetry that rounding may make.
+const ACROSS: f64 = 1e-6;
 /// Cells, faces or patches named in a message.
 const NAMED: usize = 12;
 
@@ -257,6 +260,17 @@ pub(super) fn chance(
     if let Some(at) = text.brownian.as_ref().filter(|_| dynamics.brownian && cells.goes_on()) {
         return Err(wrong(at, "Brownian motion beside planes of symmetry, wedges or cyclic patches is not there yet")
             .help("switch it off, or use a mesh of the whole body"));
+    }
+    let g = dynamics.forces.gravity;
+    for patch in cells.patches().iter().filter(|p| p.kind == PatchKind::Symmetry) {
+        let across = |[a, b, c]: crate::geometry::Triangle| {
+            let n = cross(sub(b, a), sub(c, a));
+            dot(n, g).abs() > ACROSS * norm(n) * norm(g)
+        };
+        if let Some(at) = text.gravity.as_ref().filter(|_| cells.triangles(patch).into_iter().any(across)) {
+            return Err(wrong(at, format!("gravity points across the plane of symmetry '{}'", patch.name))
+                .help("what falls on one side rises on the other: use the whole body, or give the patch a law"));
+        }
     }
     if let Some(at) = text.random_walk.as_ref().filter(|_| !cells.is_turbulent()) {
         return Err(wrong(at, "random_walk in a result without turbulence")

@@ -126,7 +126,12 @@ fn refuse_others(text: &At<FlowText>, kind: &str) -> Result<(), LawError> {
             } else {
                 format!("its keys are {}", keys.join(", "))
             };
-            return Err(LawError::new(format!("a {kind} flow has no {key}")).help(right).at(span));
+            return Err(LawError::new(format!(
+                "{} {kind} flow has no {key}",
+                if kind.starts_with("open") { "an" } else { "a" }
+            ))
+            .help(right)
+            .at(span));
         }
     }
     Ok(())

@@ -44,9 +44,19 @@ pub(super) fn in_its_gas(
     text: Option<&At<FlowText>>,
     notes: &mut Vec<String>,
 ) -> Result<Flow, LawError> {
-    let Flow::Table(table) = flow else { return Ok(flow) };
-    let Some([low, high]) = table.temperatures() else { return Ok(Flow::Table(table)) };
+    let range = match &flow {
+        Flow::Table(table) => table.temperatures(),
+        Flow::Cells(cells) => cells.temperatures(),
+        _ => None,
+    };
+    let Some([low, high]) = range else { return Ok(flow) };
     let Some(gas) = gas else {
+        let Flow::Table(table) = flow else {
+            let kind = text.and_then(|t| t.value.kind.span.clone());
+            return Err(LawError::new("the result has a temperature, and [fluid] is a liquid")
+                .help("the properties of a liquid are those of [fluid] everywhere: leave the field out of the time folder")
+                .at(kind));
+        };
         notes.push(
             "the table's temperature is left out: a liquid's properties are those of [fluid] everywhere".to_owned(),
         );
@@ -54,7 +64,7 @@ pub(super) fn in_its_gas(
     };
     let [least, most] = gas.range();
     if low < least || high > most {
-        let message = format!("the table's temperatures are from {low:.2} K to {high:.2} K");
+        let message = format!("the flow's temperatures are from {low:.2} K to {high:.2} K");
         let help = format!(
             "the viscosity of {} is known from {least} K to {most} K; if they are not in K, name their unit, as in \"T [degC]\"",
             gas.name()
@@ -62,7 +72,7 @@ pub(super) fn in_its_gas(
         let span = text.and_then(|t| t.value.file.as_ref()).and_then(|f| f.span.clone());
         return Err(LawError::new(message).help(help).at(span));
     }
-    Ok(Flow::Table(table))
+    Ok(flow)
 }
 
 fn gas(text: &At<String>) -> Result<Gas, LawError> {

@@ -1,6 +1,7 @@
 use super::*;
 use crate::force::{NearWall, RandomWalk};
 
+mod cells;
 mod curvature;
 mod fluid;
 mod flux;

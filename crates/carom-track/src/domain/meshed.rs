@@ -83,6 +83,10 @@ impl Domain for Meshed {
         self.prepared(self.cells.find_ahead(x, v))
     }
 
+    fn varies_gas(&self) -> bool {
+        self.cells.has_gas()
+    }
+
     fn is_lost(&self, here: Tetrahedron) -> bool {
         here.is_nowhere()
     }

@@ -8,6 +8,7 @@ mod beyond;
 mod cut;
 mod locate;
 mod nodes;
+mod state;
 mod tetrahedron;
 
 pub(crate) use beyond::carry_spin;
@@ -22,6 +23,7 @@ use carom_cfd::{Carry, Field, Patch, PatchKind, Snapshot};
 use cut::{Cut, NONE};
 use locate::Locator;
 use nodes::Nodes;
+use state::States;
 
 /// A flow on a mesh of cells.
 #[derive(Debug)]
@@ -35,6 +37,8 @@ pub struct Cells {
     velocity: Vec<Vec3>,
     /// k, m²/s², and ε, m²/s³, of the nodes, where there is turbulence.
     turbulence: Option<Vec<[f64; 2]>>,
+    /// Temperature and density of the nodes, where there are any.
+    state: Option<States>,
     patches: Vec<Patch>,
     plane: Option<Plane>,
     wedge: Option<Wedge>,
@@ -121,6 +125,9 @@ impl Cells {
         };
         let turbulence =
             k.zip(dissipation).map(|(k, e)| k.iter().zip(&e).map(|(k, e)| [k[0].max(0.0), e[0].max(0.0)]).collect());
+        let temperature = fields.temperature.as_ref().map(&scalar);
+        let density = fields.density.as_ref().map(&scalar);
+        let state = temperature.map(|t| States::new(&t, density.as_deref()));
         let base = base_points(mesh, &cell_centres);
         let cut = Cut::new(mesh, &base);
         let mut points = mesh.points.clone();
@@ -133,6 +140,7 @@ impl Cells {
             centres,
             velocity,
             turbulence,
+            state,
             patches: mesh.patches.clone(),
             plane,
             wedge,
@@ -350,6 +358,7 @@ impl Cells {
             let [k, epsilon] = self.blend(here, x, nodes);
             (local.k, local.epsilon) = (k.max(0.0), epsilon.max(0.0));
         }
+        local.gas = self.state.as_ref().map(|s| s.at(self, here, x));
         local
     }
 

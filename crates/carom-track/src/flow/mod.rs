@@ -254,7 +254,11 @@ impl Flow {
     /// Whether it gives the gas's state, place by place.
     #[inline(always)]
     pub fn varies_gas(&self) -> bool {
-        matches!(self, Self::Table(f) if f.has_gas())
+        match self {
+            Self::Table(f) => f.has_gas(),
+            Self::Cells(f) => f.has_gas(),
+            _ => false,
+        }
     }
 
     /// Whether it knows the friction velocity of its walls.

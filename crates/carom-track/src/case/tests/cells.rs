@@ -1,0 +1,96 @@
+//! Cases through a stored result of OpenFOAM: a block of 3 × 2 × 2 cells with every kind of patch.
+
+use super::*;
+use crate::record::Fate;
+use crate::run::{RunOptions, Silent, run};
+use std::path::PathBuf;
+
+const CASE: &str = r#"
+[flow]
+kind = "openfoam"
+case = "block"
+[forces]
+gravity = [0, 0, -9.81]
+[[wall]]
+patch = "inlet|outlet"
+law = "escape"
+[[wall]]
+patch = "lower"
+law = "trap"
+[[injection]]
+name = "dust"
+density = "2000 kg/m3"
+diameter = "20 um"
+count = 200
+position = { patch = "inlet" }
+distribution = "flux"
+[run]
+until = "20 s"
+"#;
+
+fn at() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../carom-cfd/tests/cases/case.toml")
+}
+
+fn read(text: &str) -> Result<Case, CaseError> {
+    Case::from_toml(text, &at(), Library::builtin())
+}
+
+fn refused(from: &str, to: &str, words: &[&str]) {
+    assert!(CASE.contains(from), "{from}");
+    let error = read(&CASE.replacen(from, to, 1)).unwrap_err();
+    let said = error.to_string() + &error.remedy().unwrap_or_default();
+    for word in words {
+        assert!(said.contains(word), "{word}: {said}");
+    }
+}
+
+#[test]
+fn spheres_go_through_it_and_have_a_fate() {
+    let case = read(CASE).unwrap();
+    let names: Vec<&str> = case.domain.walls().iter().map(|w| w.name.as_str()).collect();
+    assert_eq!(names, ["inlet", "outlet", "lower"]);
+    let summary = run(&case, &RunOptions::default(), &Silent).unwrap();
+    assert_eq!(summary.injected.count, 200);
+    let count = |fate| summary.count(fate);
+    assert_eq!(count(Fate::Trapped) + count(Fate::Escaped), 200, "{summary:?}");
+    // the wind blows off the lower wall: what starts within a radius of it alone is kept
+    assert!(count(Fate::Escaped) > 150, "{summary:?}");
+}
+
+#[test]
+fn what_the_mesh_does_not_have_is_refused_with_what_it_has() {
+    refused("patch = \"lower\"", "patch = \"floor\"", &["no patch \"floor\"", "lower (wall)", "upper (symmetry)"]);
+    refused("[[wall]]\npatch = \"lower\"\nlaw = \"trap\"\n", "", &["no [[wall]] says what happens at 'lower'"]);
+    refused("patch = \"lower\"", "patch = \"left\"", &["is a side of the space (cyclic)"]);
+    refused("patch = \"lower\"", "patch = \"lower|inlet\"", &["patch 'inlet' has two walls"]);
+    refused("patch = \"lower\"", "patch = \"(\"", &["no regular expression"]);
+    refused("position = { patch = \"inlet\" }", "position = { patch = \"inlett\" }", &["no patch \"inlett\"", "inlet"]);
+    refused(
+        "position = { patch = \"inlet\" }\ndistribution = \"flux\"",
+        "position = [9, 9, 9]\nvelocity = \"fluid\"",
+        &["outside the mesh"],
+    );
+    refused("case = \"block\"", "case = \"nothing\"", &["nothing"]);
+    refused("case = \"block\"", "case = \"block\"\ntime = 7", &["7", "1", "2"]);
+    refused("case = \"block\"", "case = \"block\"\nfields = { k = \"kk\" }", &["kk"]);
+    refused(
+        "case = \"block\"",
+        "case = \"block\"\nradius = \"1 m\"",
+        &["an openfoam flow has no radius", "case, time, fields"],
+    );
+    refused("kind = \"openfoam\"\ncase = \"block\"", "kind = \"still\"", &["patch"]);
+}
+
+#[test]
+fn names_and_mirrors() {
+    let named = CASE.replacen("patch = \"lower\"", "name = \"floor\"\npatch = \"lower\"", 1);
+    assert_eq!(read(&named).unwrap().domain.walls()[2].name, "floor");
+    let mirror = CASE.replacen("patch = \"lower\"\nlaw = \"trap\"", "patch = \"lower\"\nlaw = \"symmetry\"", 1);
+    let error = read(&mirror.replacen("[0, 0, -9.81]", "[0, -9.81, 0]", 1)).unwrap_err().to_string();
+    assert!(error.contains("gravity points across"), "{error}");
+    let case = read(&mirror).unwrap();
+    assert_eq!(case.domain.walls().len(), 2);
+    let summary = run(&case, &RunOptions::default(), &Silent).unwrap();
+    assert_eq!(summary.count(Fate::Trapped), 0);
+}
