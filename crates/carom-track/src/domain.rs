@@ -284,6 +284,7 @@ impl Analytic {
 /// A domain of any kind: chosen once in a run, so that the tracker is compiled once for each.
 #[derive(Debug)]
 #[non_exhaustive]
+#[allow(clippy::large_enum_variant, reason = "there is one of it in a run")]
 pub enum AnyDomain {
     /// An analytic flow or a table, with walls.
     Analytic(Analytic),

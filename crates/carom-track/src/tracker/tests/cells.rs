@@ -228,7 +228,7 @@ fn a_wedge_goes_on_round_its_axis() {
     for i in 0..40 {
         let (r, v) = (0.1 + 0.7 * dice.roll(), dice.point().map(|c| 2.0 * c - 1.0));
         // in the middle plane, a few straight through the axis
-        let v = if i % 4 == 0 { [0.1 * v[0], v[1].abs() * -1.0 - 0.1, 0.0] } else { [0.1 * v[0], v[1], v[2]] };
+        let v = if i % 4 == 0 { [0.1 * v[0], -v[1].abs() - 0.1, 0.0] } else { [0.1 * v[0], v[1], v[2]] };
         let start = Particle::sphere(i, 1e-6, 1000.0, [1.0, r, 0.0], v);
         let log = fly(&domain, &d, Behavior::Escape, 0.8, &[start]);
         let end = log.ends[0];
