@@ -80,7 +80,7 @@ fn triangles(n: usize) -> Vec<Triangle> {
 }
 
 fn wall(shape: Shape) -> Wall {
-    Wall { name: "box".into(), shape, contact_at: ContactAt::Surface, velocity: [0.0; 3] }
+    Wall { name: "box".into(), shape, contact_at: ContactAt::Surface, velocity: [0.0; 3], patch: None }
 }
 
 fn mesh(n: usize) -> Shape {
