@@ -7,10 +7,13 @@ pub mod block;
 pub mod check;
 mod error;
 mod field;
+#[cfg(feature = "fluent")]
+pub mod fluent;
 pub mod geometry;
 mod mesh;
 mod names;
 pub mod openfoam;
+mod points;
 pub mod quality;
 #[cfg(test)]
 mod samples;

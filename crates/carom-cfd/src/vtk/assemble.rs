@@ -4,6 +4,7 @@ use super::data::{COUNT, QUANTITIES};
 use super::grid::Grid;
 use super::patches::{Boundary, Surface};
 use super::sides::{NONE, Sides};
+use crate::points::renumber;
 use crate::{Field, Fields, Mesh, Patch, PatchKind, Polygons};
 use carom_table::clipped;
 
@@ -44,28 +45,12 @@ pub(super) fn mesh(grid: &Grid, sides: &Sides, boundary: &Boundary) -> (Mesh, Op
         begin = faces.end;
         mesh.patches.push(Patch { name: name.clone(), groups: Vec::new(), kind: PatchKind::Plain, faces });
     }
-    let kept = used(&mut mesh.faces.corners, grid.points.len());
+    let kept = renumber(&mut mesh.faces.corners, grid.points.len());
     mesh.points = match &kept {
         Some(kept) => kept.iter().map(|p| grid.points[*p as usize]).collect(),
         None => grid.points.clone(),
     };
     (mesh, kept)
-}
-
-/// Numbers the points anew that are used; the numbers they had, if not all are.
-fn used(corners: &mut [u32], points: usize) -> Option<Vec<u32>> {
-    let mut number = vec![NONE; points];
-    corners.iter().for_each(|c| number[*c as usize] = 0);
-    if number.iter().all(|n| *n == 0) {
-        return None;
-    }
-    let mut kept = Vec::new();
-    for (p, n) in number.iter_mut().enumerate().filter(|(_, n)| **n == 0) {
-        *n = kept.len() as u32;
-        kept.push(p as u32);
-    }
-    corners.iter_mut().for_each(|c| *c = number[*c as usize]);
-    Some(kept)
 }
 
 /// What the fields are made of.
