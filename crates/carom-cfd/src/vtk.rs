@@ -47,6 +47,7 @@ use cells::is_solid;
 use files::{Load, needs_solids};
 use grid::Grid;
 use patches::Surface;
+use std::collections::HashMap;
 use std::path::Path;
 
 /// What a reader is told.
@@ -116,6 +117,9 @@ fn snapshot(bytes: Vec<u8>, path: &Path, load: Load, options: &Options) -> Resul
     Ok(snapshot)
 }
 
+/// Patches that a cell array may name.
+const MOST_PATCHES: usize = 10_000;
+
 /// The polygons beside the solid cells of a grid, by the patches that their values name.
 fn beside<'a>(
     grid: &'a Grid,
@@ -126,9 +130,14 @@ fn beside<'a>(
 ) -> Result<Vec<Surface<'a>>, Error> {
     let flat: Vec<u32> = (0..grid.kinds.len()).filter(|c| grid.polygon(*c).is_some()).map(|c| c as u32).collect();
     let mut surfaces: Vec<Surface> = Vec::new();
-    let mut add = |name: String, cell: u32| match surfaces.iter_mut().find(|s| s.name == name) {
-        Some(surface) => surface.cells.push(cell),
-        None => surfaces.push(Surface { name, grid, cells: vec![cell], among_cells: true }),
+    let mut places: HashMap<String, usize> = HashMap::new();
+    let mut add = |name: String, cell: u32| {
+        let next = surfaces.len();
+        match *places.entry(name.clone()).or_insert(next) {
+            place if place < next => surfaces[place].cells.push(cell),
+            _ => surfaces.push(Surface { name, grid, cells: vec![cell], among_cells: true }),
+        }
+        next < MOST_PATCHES
     };
     match (&options.patches, &grid.data.labels) {
         (Some(array), None) if alone => {
@@ -140,7 +149,12 @@ fn beside<'a>(
                 format!("no 2-D cells lie beside the solid ones: values of {array} could name patches on such only");
             return Err(Error::file(path, what));
         }
-        (_, Some(labels)) => flat.iter().for_each(|c| add(labels.name(*c as usize).unwrap_or_default(), *c)),
+        (_, Some(labels)) => {
+            let few = flat.iter().all(|c| add(labels.name(*c as usize).unwrap_or_default(), *c));
+            let name = options.patches.as_deref().unwrap_or_default();
+            let what = format!("{name} names more than {MOST_PATCHES} patches: is that the array?");
+            return if few { Ok(surfaces) } else { Err(Error::file(path, what)) };
+        }
         (_, None) if alone && !flat.is_empty() => {
             notes.push(format!(
                 "{} 2-D cells lie beside the solid ones: patches = \"...\" names the cell array whose values are the patches' names",

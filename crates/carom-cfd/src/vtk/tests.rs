@@ -269,3 +269,46 @@ fn fields_are_named_or_listed() {
         "{none}"
     );
 }
+
+#[test]
+fn a_case_is_the_same_as_openfoams_and_as_vtks() {
+    let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases/block");
+    let foam = crate::openfoam::read(&case, &crate::openfoam::Options::default()).unwrap();
+    let vtk = get("foam/block/block_0.vtm");
+    assert_eq!((vtk.time.as_deref(), foam.time.as_deref()), (Some("2"), Some("2")));
+    // foamToVTK writes single precision
+    let near = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() <= 1e-6 * b.abs().max(1e-3));
+    let (a, b) = (volumes(&vtk.mesh), volumes(&foam.mesh));
+    assert!(a.len() == b.len() && near(&a, &b), "{a:?} {b:?}");
+    let mut pairs =
+        [&vtk.mesh, &foam.mesh].map(|m| m.owner.iter().copied().zip(m.neighbour.clone()).collect::<Vec<_>>());
+    pairs.iter_mut().for_each(|p| p.sort_unstable());
+    assert_eq!(pairs[0], pairs[1]);
+    let names = |m: &Mesh| m.patches.iter().map(|p| (p.name.clone(), p.faces.len())).collect::<Vec<_>>();
+    assert_eq!(names(&vtk.mesh), names(&foam.mesh));
+    let values = |s: &Snapshot| {
+        let (u, on) = cells(&s.fields.velocity);
+        let scalars = [&s.fields.pressure, &s.fields.k, &s.fields.epsilon].map(|f| {
+            let (cells, on) = cells(f);
+            (cells.as_flattened().to_vec(), on.as_flattened().to_vec())
+        });
+        (u.as_flattened().to_vec(), on.to_vec(), scalars)
+    };
+    let (vtk_values, foam_values) = (values(&vtk), values(&foam));
+    assert!(near(&vtk_values.0, &foam_values.0));
+    for (a, b) in vtk_values.2.iter().zip(&foam_values.2) {
+        assert!(near(&a.0, &b.0));
+    }
+    // of inlet, outlet and the wall, whose values both write; faces of a patch by their owners
+    let by_owner = |s: &Snapshot, on: &[[f64; 3]], patch: usize| {
+        let inner = s.mesh.inner_faces();
+        let mut all: Vec<(u32, [f64; 3])> =
+            s.mesh.patches[patch].faces.clone().map(|f| (s.mesh.owner[f], on[f - inner])).collect();
+        all.sort_by_key(|a| a.0);
+        all
+    };
+    for patch in 0..3 {
+        let [a, b] = [by_owner(&vtk, &vtk_values.1, patch), by_owner(&foam, &foam_values.1, patch)];
+        assert!(a.iter().zip(&b).all(|(a, b)| a.0 == b.0 && near(&a.1, &b.1)), "{a:?} {b:?}");
+    }
+}

@@ -53,4 +53,14 @@ make() { # NAME CELLS KIND-OF-SIDES
 }
 make plane '2 2 1' empty
 make poly '2 2 2' wall
+# a case that the tests read as OpenFOAM's too
+cp -r "$there/poly/system" "$there/system"
+cp -r "$here/../../cases/block" "$there/block"
+cp -r "$there/system" "$there/block"
+cd "$there/block"
+foamToVTK -no-point-data -time 2 -name cells > cells.log
+rm -rf "$here/block"
+mkdir "$here/block"
+cp -r cells/block_0* "$here/block"
+rm "$here/block/block_0/boundary.vtm"
 rm -rf "$there"
