@@ -1,7 +1,7 @@
 //! A flow on a mesh of cells, from a finished CFD result.
 //!
-//! Cells are cut into tetrahedra ([`cut`]), in each of which every field is linear between its four nodes: three points of the mesh and
-//! the cell's centre ([`nodes`]). So fields are continuous everywhere and, on the boundary, what the boundary condition says. A sphere
+//! Cells are cut into tetrahedra (`cells/cut.rs`), in each of which every field is linear between its four nodes: three points of the mesh and
+//! the cell's centre (`cells/nodes.rs`). So fields are continuous everywhere and, on the boundary, what the boundary condition says. A sphere
 //! keeps the [`Tetrahedron`] it is in.
 
 mod beyond;

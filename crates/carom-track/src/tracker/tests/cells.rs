@@ -123,6 +123,39 @@ fn in_meshes_with_turned_cells_every_sphere_has_a_fate() {
     }
 }
 
+#[test]
+fn poiseuille_s_flow_on_any_mesh_deposits_as_the_formula_does_the_better_the_finer_it_is() {
+    let (height, length) = (0.02, 0.4);
+    let channel = crate::flow::Channel::new(crate::flow::Profile::Laminar, height, 0.2, &Fluid::default()).unwrap();
+    let exact = AnyDomain::new(
+        Flow::Channel(channel),
+        vec![plane("floor", [0.0; 3], [0.0, 1.0, 0.0]), plane("end", [length, 0.0, 0.0], [-1.0, 0.0, 0.0])],
+    );
+    let d = dynamics(Drag::SchillerNaumann);
+    let start = |i: u64| {
+        let y = height * (0.1 + 0.1 * i as f64);
+        Particle::sphere(i, 40e-6, 1000.0, [1e-3, y, 0.41 * height], [0.0; 3])
+    };
+    let starts: Vec<Particle> = (0..8).map(start).collect();
+    let want = fly(&exact, &d, Behavior::Trap, 10.0, &starts);
+    for kind in Kind::ALL {
+        let error = |n: usize| {
+            let mut mesh = shaken(kind, [2 * n, n, n / 2], 0.2, 31);
+            for x in &mut mesh.points {
+                // finer towards the floor
+                let y = x[1] * (0.7 + 0.3 * x[1]);
+                *x = [length * x[0], height * y, height * x[2]];
+            }
+            let flow = |x: Vec3| [1.2 * x[1] / height * (1.0 - x[1] / height), 0.0, 0.0];
+            let got = fly(&domain(&with_cell_velocity(mesh, flow)), &d, Behavior::Trap, 10.0, &starts);
+            let off = |(got, want): (&End, &End)| (got.position[0] - want.position[0]).abs();
+            got.ends.iter().zip(&want.ends).map(off).fold(0.0, f64::max) / length
+        };
+        let (coarse, fine) = (error(6), error(18));
+        assert!(fine < 0.02 && fine < 0.35 * coarse, "{kind:?}: {coarse} {fine}");
+    }
+}
+
 /// A block of that many hexahedra with the kinds of its six patches.
 fn sides(n: [usize; 3], kinds: impl Fn(&str) -> PatchKind, place: impl Fn(Vec3) -> Vec3) -> carom_cfd::Mesh {
     let mut mesh = block(Kind::Hexahedra, n, place);
