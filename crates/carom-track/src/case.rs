@@ -140,16 +140,19 @@ impl Case {
         let fingerprint =
             materials(&read, &laws, library).iter().fold(files.fingerprint(), |f, m| f.with_material(m)).number();
         let open = behaviors.iter().map(|b| matches!(b, Behavior::Escape)).collect();
+        let rubs = dynamics.random_walk.is_some() || behaviors.iter().any(|b| matches!(b, Behavior::Removal(..)));
         let output = read.output;
         let bins = bins(&output)?;
         notes.extend(read.forces.gravity.is_none().then(|| "no gravity: [forces] gives none".to_owned()));
         notes.extend(fluid::notes(read.fluid.as_ref(), &dynamics, &flow, &injections));
         notes.extend(injections.iter().filter_map(injection::outflow));
         notes.extend(scale::notes(&flow, &walls, &behaviors, &injections));
+        let domain = AnyDomain::new(flow, walls).with_openings(open);
+        let domain = if rubs { domain.with_friction(fluid.kinematic_viscosity()) } else { domain };
         Ok(Self {
             title: read.title.unwrap_or_default(),
             name: name.to_owned(),
-            domain: AnyDomain::new(flow, walls).with_openings(open),
+            domain,
             dynamics,
             behaviors,
             injections,

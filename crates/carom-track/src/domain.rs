@@ -321,6 +321,16 @@ impl AnyDomain {
         }
     }
 
+    /// The same, a mesh with the distance and friction velocity of its solid walls, for walks and removal; `nu` is the fluid's kinematic
+    /// viscosity, m²/s. Other flows know them as it is.
+    #[must_use]
+    pub fn with_friction(self, nu: f64) -> Self {
+        match self {
+            Self::Meshed(d) => d.with_friction(nu).into(),
+            other => other,
+        }
+    }
+
     /// The walls, in the order of their indices.
     pub fn walls(&self) -> &[Wall] {
         self.geometry().list()

@@ -4,7 +4,7 @@
 
 use super::{BEYOND, Domain, Next};
 use crate::flow::Local;
-use crate::flow::cells::{Behind, Cells, Tetrahedron};
+use crate::flow::cells::{Behind, Cells, NearWalls, Tetrahedron};
 use crate::geometry::{Ahead, Hit, Meeting, Path, Walls};
 use crate::integrate::{Lanes, Lanes3};
 use crate::lanes::mask;
@@ -21,6 +21,8 @@ pub struct Meshed {
     of_patch: Vec<Option<usize>>,
     /// Of each cell, a distance from its centre within which there is no wall, m.
     clear: Vec<f32>,
+    /// Distance and friction of the solid walls, where it is asked for.
+    near: Option<NearWalls>,
 }
 
 impl Meshed {
@@ -34,12 +36,19 @@ impl Meshed {
                 (distance * (1.0 - 1e-6)) as f32 * (1.0 - 1e-6)
             })
             .collect();
-        Self { cells, walls, of_patch, clear }
+        Self { cells, walls, of_patch, clear, near: None }
     }
 
     /// The flow.
     pub fn cells(&self) -> &Arc<Cells> {
         &self.cells
+    }
+
+    /// The same, with the distance and friction velocity of its solid walls; `nu` is the fluid's kinematic viscosity, m²/s.
+    #[must_use]
+    pub fn with_friction(self, nu: f64) -> Self {
+        let near = NearWalls::new(&self.cells, self.walls.list(), self.walls.openings(), nu);
+        Self { near, ..self }
     }
 
     pub(super) fn with_openings(self, open: Vec<bool>) -> Self {
@@ -93,7 +102,11 @@ impl Domain for Meshed {
 
     #[inline(always)]
     fn fluid(&self, here: Tetrahedron, _time: f64, x: Vec3) -> Local {
-        self.cells.sample_in(&here, x)
+        let mut local = self.cells.sample_in(&here, x);
+        if let Some(near) = self.near.as_ref().filter(|_| !here.is_nowhere()) {
+            near.add(&self.cells, &here, x, &mut local);
+        }
+        local
     }
 
     #[inline(always)]

@@ -7,11 +7,13 @@
 mod beyond;
 mod cut;
 mod locate;
+mod near_walls;
 mod nodes;
 mod state;
 mod tetrahedron;
 
 pub(crate) use beyond::carry_spin;
+pub(crate) use near_walls::NearWalls;
 pub use tetrahedron::Tetrahedron;
 
 use super::Local;
@@ -106,7 +108,9 @@ impl Cells {
             _ => {}
         }
         let pairs = beyond::pairs(mesh);
-        let nodes = Nodes { mesh, cell_centres: &cell_centres, face_centres: &face_centres, pairs: &pairs };
+        let base = base_points(mesh, &cell_centres);
+        let cut = Cut::new(mesh, &base);
+        let nodes = Nodes { mesh, cut: &cut, cell_centres: &cell_centres, face_centres: &face_centres, pairs: &pairs };
         let mut velocity = nodes.values(velocity, |carry, v: Vec3| carry.vector(v));
         if matches!(fields.velocity, Some(Field::Cells { .. })) {
             nodes::along_symmetry(mesh, &areas, &mut velocity);
@@ -128,8 +132,6 @@ impl Cells {
         let temperature = fields.temperature.as_ref().map(&scalar);
         let density = fields.density.as_ref().map(&scalar);
         let state = temperature.map(|t| States::new(&t, density.as_deref()));
-        let base = base_points(mesh, &cell_centres);
-        let cut = Cut::new(mesh, &base);
         let mut points = mesh.points.clone();
         let centres = points.len();
         points.extend(cell_centres);

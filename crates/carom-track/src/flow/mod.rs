@@ -266,6 +266,7 @@ impl Flow {
         match self {
             Self::Channel(f) => f.friction_velocity() > 0.0,
             Self::Pipe(f) => f.friction_velocity() > 0.0,
+            Self::Cells(_) => true,
             _ => false,
         }
     }

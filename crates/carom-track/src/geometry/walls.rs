@@ -178,6 +178,11 @@ impl Walls {
         self.list.iter().map(|w| w.shape.distance(x).abs()).fold(f64::INFINITY, f64::min)
     }
 
+    /// Of each, whether it is an opening.
+    pub fn openings(&self) -> &[bool] {
+        &self.open
+    }
+
     /// The walls, in the order of their indices.
     pub fn list(&self) -> &[Wall] {
         &self.list

@@ -5,12 +5,14 @@
 //! weights of OpenFOAM's `volPointInterpolation` (v1912), so that its `cellPoint` interpolation gives the same field. Sides of plane
 //! and axisymmetric cases, planes of symmetry and cyclic patches are no boundary in this sense.
 
+use super::cut::Cut;
 use crate::vector::{Vec3, dot, norm, scale, sub};
 use carom_cfd::{Carry, Field, Mesh, PatchKind};
 
 /// What to interpolate on.
 pub(super) struct Nodes<'a> {
     pub mesh: &'a Mesh,
+    pub cut: &'a Cut,
     pub cell_centres: &'a [Vec3],
     pub face_centres: &'a [Vec3],
     /// Points on each pair of cyclic patches: one on a patch, that on its partner, and how it is carried there.
@@ -110,15 +112,15 @@ impl Nodes<'_> {
 
     /// Each point of each cell once.
     fn each_cell_point(&self, mut tell: impl FnMut(usize, u32)) {
-        let mesh = self.mesh;
-        // the last cell that each point was told of would do if faces came cell by cell; they do not
-        let sides = mesh.owner.iter().zip(0..).chain(mesh.neighbour.iter().zip(0..));
-        let mut of: Vec<(u32, u32)> =
-            sides.flat_map(|(cell, face)| mesh.faces.get(face).iter().map(|p| (*cell, *p))).collect();
-        rayon::slice::ParallelSliceMut::par_sort_unstable(&mut of[..]);
-        of.dedup();
-        for (cell, point) in of {
-            tell(cell as usize, point);
+        let mut points = Vec::new();
+        for cell in 0..self.mesh.cells {
+            points.clear();
+            for face in self.cut.faces(cell) {
+                points.extend_from_slice(self.mesh.faces.get(*face as usize));
+            }
+            points.sort_unstable();
+            points.dedup();
+            points.iter().for_each(|point| tell(cell, *point));
         }
     }
 }

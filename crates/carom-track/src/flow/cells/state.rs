@@ -51,7 +51,7 @@ impl Cells {
 
     /// Gradient of a quantity of the nodes in a tetrahedron.
     #[inline(always)]
-    fn slope(&self, here: &Tetrahedron, of: impl Fn(usize) -> f64) -> Vec3 {
+    pub(super) fn slope(&self, here: &Tetrahedron, of: impl Fn(usize) -> f64) -> Vec3 {
         let (corners, centre) = self.corners(here.id);
         let base = of(centre);
         let changes = corners.map(|c| of(c) - base);

@@ -24,6 +24,12 @@ impl Mesh {
         self.nearest_within(x, f64::INFINITY)
     }
 
+    /// The nearest triangle's place in the list given, and its distance, m.
+    pub(crate) fn nearest_face(&self, x: Vec3) -> Option<(u32, f64)> {
+        let (face, foot) = self.nearest(x)?;
+        Some((self.surface.faces[face as usize].number, norm(sub(x, foot))))
+    }
+
     /// Distance of a point from the nearest triangle, on whichever side, m; `None` if it is at least `far`.
     pub(in super::super) fn distance_within(&self, x: Vec3, far: f64) -> Option<f64> {
         self.nearest_within(x, far).map(|(_, foot)| norm(sub(x, foot)))
