@@ -10,6 +10,8 @@ use crate::vector::{cross, dot, norm, sub};
 use carom::LawError;
 use carom::error::did_you_mean;
 use carom::spec::At;
+#[cfg(feature = "fluent")]
+use carom_cfd::fluent;
 use carom_cfd::{Names, Patch, PatchKind, Snapshot, check, openfoam, vtk};
 use carom_table::quoted;
 use std::sync::Arc;
@@ -39,6 +41,18 @@ pub(super) fn read(
             let options = openfoam::Options { time, names: names(text.value.fields.as_ref()) };
             let read = openfoam::read(&files.beside(&case.value), &options);
             (case, read.map_err(|e| wrong(case, e.to_string()))?)
+        }
+        #[cfg(not(feature = "fluent"))]
+        "fluent" => {
+            return Err(wrong(&text.value.kind, "this build reads no results of Fluent")
+                .help("build with the feature fluent, or export the result as .vtu"));
+        }
+        #[cfg(feature = "fluent")]
+        "fluent" => {
+            let file = needed(&text.value.file, text, "file", "a fluent flow")?;
+            let options = fluent::Options { names: names(text.value.fields.as_ref()), ..fluent::Options::default() };
+            let read = fluent::read(&files.beside(&file.value), &options);
+            (file, read.map_err(|e| wrong(file, e.to_string()))?)
         }
         _ => {
             let file = needed(&text.value.file, text, "file", "a vtk flow")?;

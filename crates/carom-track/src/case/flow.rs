@@ -11,8 +11,19 @@ use carom::spec::At;
 use carom::units::TemperatureGradient;
 use carom_table::quoted;
 
-const KINDS: [&str; 10] =
-    ["still", "uniform", "channel", "pipe", "stagnation", "slot-jet", "round-jet", "table", "openfoam", "vtk"];
+const KINDS: [&str; 11] = [
+    "still",
+    "uniform",
+    "channel",
+    "pipe",
+    "stagnation",
+    "slot-jet",
+    "round-jet",
+    "table",
+    "openfoam",
+    "vtk",
+    "fluent",
+];
 const COLUMNS: [&str; 11] = ["x", "y", "z", "u", "v", "w", "k", "epsilon", "omega", "T", "rho"];
 const PROFILES: [(&str, Profile); 3] =
     [("plug", Profile::Plug), ("laminar", Profile::Laminar), ("turbulent", Profile::Turbulent)];
@@ -68,7 +79,7 @@ pub(super) fn flow(
             let named = named(text.columns.as_ref())?;
             Flow::Table(Table::from_named(&file.value, &bytes, &named).map_err(|e| failed(&e))?)
         }
-        "openfoam" | "vtk" => Flow::Cells(super::cells::read(text, walls, files, notes)?),
+        "openfoam" | "vtk" | "fluent" => Flow::Cells(super::cells::read(text, walls, files, notes)?),
         _ => return Err(unknown(&text.kind, "kind of flow", KINDS.into_iter())),
     })
 }
@@ -117,6 +128,7 @@ fn refuse_others(text: &At<FlowText>, kind: &str) -> Result<(), LawError> {
         "table" => &["file", "columns"],
         "openfoam" => &["case", "time", "fields"],
         "vtk" => &["file", "fields", "patches"],
+        "fluent" => &["file", "fields"],
         _ => return Ok(()),
     };
     for (key, span) in given {
