@@ -63,6 +63,18 @@ impl Meshed {
         tet
     }
 
+    /// What lies ahead where the mesh does not say it: another cell, or beyond the axis of a wedge the other side of it.
+    fn look_for(&self, theta: f64, x: Vec3, slope: Vec3) -> Next<Tetrahedron> {
+        let into = self.cells.find_ahead(x, slope);
+        match self.cells.back_into_wedge(x, slope).filter(|_| into.is_nowhere()) {
+            Some(carry) => {
+                let into = self.cells.find_ahead(carry.point(x), carry.vector(slope));
+                Next::Carried { theta, into: self.prepared(into), carry }
+            }
+            None => Next::Edge { theta, into: self.prepared(into) },
+        }
+    }
+
     /// The end of a path at a patch that its walls let through: only rounding does.
     fn through(&self, patch: usize, triangle: u32, theta: f64, path: &Path) -> Option<Hit> {
         let wall = self.of_patch.get(patch).copied().flatten()?;
@@ -88,8 +100,9 @@ impl Domain for Meshed {
         self.prepared(self.cells.find(x))
     }
 
-    fn enter_ahead(&self, _here: Tetrahedron, x: Vec3, v: Vec3) -> Tetrahedron {
-        self.prepared(self.cells.find_ahead(x, v))
+    fn enter_ahead(&self, here: Tetrahedron, x: Vec3, v: Vec3) -> Tetrahedron {
+        let found = self.prepared(self.cells.find_ahead(x, v));
+        if found.is_nowhere() { here } else { found }
     }
 
     fn varies_gas(&self) -> bool {
@@ -157,11 +170,11 @@ impl Domain for Meshed {
         let Some((theta, side)) = here.exit(path) else { return Next::Clear };
         let (x, slope) = (path.at(theta), path.slope(theta));
         match self.cells.behind(&here, side, x, slope) {
-            Behind::Inside(next) => {
-                let into = self.cells.tetrahedron(next).unwrap_or_else(|| self.cells.find_ahead(x, slope));
-                Next::Edge { theta, into: self.prepared(into) }
-            }
-            Behind::Unknown => Next::Edge { theta, into: self.prepared(self.cells.find_ahead(x, slope)) },
+            Behind::Inside(next) => match self.cells.tetrahedron(next) {
+                Some(into) => Next::Edge { theta, into: self.prepared(into) },
+                None => self.look_for(theta, x, slope),
+            },
+            Behind::Unknown => self.look_for(theta, x, slope),
             Behind::Carried(carry, known) => {
                 let into = match known {
                     Some(tet) => self.cells.tetrahedron(tet).unwrap_or(Tetrahedron::NOWHERE),

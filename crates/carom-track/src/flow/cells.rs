@@ -255,6 +255,11 @@ impl Cells {
         }
     }
 
+    /// How what leaves a wedge at `x` towards `v` comes back into it; none in other meshes.
+    pub(crate) fn back_into_wedge(&self, x: Vec3, v: Vec3) -> Option<Carry> {
+        self.wedge.as_ref().map(|wedge| wedge.back(x, v))
+    }
+
     /// The tetrahedron of a point; [`Tetrahedron::NOWHERE`] outside the mesh.
     pub(crate) fn find(&self, x: Vec3) -> Tetrahedron {
         let found = self.locator.as_ref().and_then(|l| l.find(self, x));

@@ -74,7 +74,7 @@ impl Wedge {
         let point = scale(add(scale(cross(m, turn), c), scale(cross(turn, n), d)), 1.0 / square);
         let size = mesh.points.iter().map(|x| norm(sub(*x, point))).fold(0.0, f64::max);
         let angle = math::atan2(norm(turn), -dot(n, m));
-        Some(Self { point, axis, middle, side: cross(axis, middle), angle, least: 1e-9 * size })
+        Some(Self { point, axis, middle, side: cross(axis, middle), angle, least: 1e-8 * size })
     }
 
     /// The rotation by some angle round the axis.
@@ -99,15 +99,17 @@ impl Wedge {
     /// The rotation, by whole wedges, of what leaves at `x` towards `v`, into the wedge.
     pub fn back(&self, x: Vec3, v: Vec3) -> Carry {
         let (angle, distance) = self.place(sub(x, self.point));
-        let wedges = if distance > self.least {
+        if distance > self.least {
             // on a side: on to the other one
             let over = angle / self.angle;
             let whole = over.round();
-            if whole == 0.0 { over.signum() } else { whole }
-        } else {
-            (self.place(v).0 / self.angle).round()
-        };
-        self.turn(-wedges * self.angle)
+            return self.turn(-self.angle * if whole == 0.0 { over.signum() } else { whole });
+        }
+        // through the axis: put onto it, so that it goes on inside whichever way it comes
+        let turn = self.turn(-self.angle * (self.place(v).0 / self.angle).round());
+        let along = dot(sub(x, self.point), self.axis);
+        let onto = sub(add(self.point, scale(self.axis, along)), turn.point(x));
+        Carry { translation: add(turn.translation, onto), ..turn }
     }
 
     /// Velocities at points on the sides, which were taken in the middle, turned there.

@@ -258,10 +258,18 @@ fn a_wedge_goes_on_round_its_axis() {
     let domain = AnyDomain::new(Flow::Cells(cells.clone()), vec![wall("left"), wall("right"), wall("top")]);
     let d = floating(Drag::None);
     let mut dice = Dice::new(6);
-    for i in 0..40 {
+    for i in 0..160 {
         let (r, v) = (0.1 + 0.7 * dice.roll(), dice.point().map(|c| 2.0 * c - 1.0));
         // in the middle plane, a few straight through the axis
-        let v = if i % 4 == 0 { [0.1 * v[0], -v[1].abs() - 0.1, 0.0] } else { [0.1 * v[0], v[1], v[2]] };
+        let beside = 10f64.powi(-(i as i32 % 16));
+        let v = if i % 4 == 1 {
+            // past the axis at any distance
+            [0.1 * v[0], -1.0, beside * v[2]]
+        } else if i % 4 == 0 {
+            [0.1 * v[0], -v[1].abs() - 0.1, 0.0]
+        } else {
+            [0.1 * v[0], v[1], v[2]]
+        };
         let start = Particle::sphere(i, 1e-6, 1000.0, [1.0, r, 0.0], v);
         let log = fly(&domain, &d, Behavior::Escape, 0.8, &[start]);
         let end = log.ends[0];
