@@ -3,6 +3,7 @@
 //! Made from the files of the finished run, so that a merged run's is the whole run's, to the bit.
 
 mod bins;
+mod faces;
 mod figures;
 mod made;
 mod tally;
@@ -54,6 +55,7 @@ pub fn write(about: &About, summary: &Summary, folder: &Path, report: Option<&Ma
             page.section("Deposit").paragraph("Not shown: the case has fates = false.");
         }
     }
+    faces::section(&mut page, summary, folder)?;
     match impacts? {
         Some(impacts) => {
             distributions(&mut page, &impacts, summary)?;

@@ -16,6 +16,7 @@
 //! |---|---|
 //! | draw lines, points with error bars, bands, histograms | [`Plot`], [`Series`] |
 //! | colour cells by value | [`HeatMap`] |
+//! | show a body of triangles, coloured by value | [`Body`] |
 //! | mark a value, or draw walls and paths to scale | [`plot::Reference`], [`Plot::wall`], [`Plot::equal_aspect`] |
 //! | put figures and tables into one HTML file | [`Report`] |
 //!
@@ -37,4 +38,4 @@ pub use carom_table::{
 };
 pub use error::ReportError;
 pub use html::Report;
-pub use plot::{Axis, Color, HeatMap, Plot, Series};
+pub use plot::{Axis, Body, Color, HeatMap, Plot, Series};

@@ -26,6 +26,7 @@ use carom_table::{TableError, file};
 
 mod apart;
 mod axis;
+mod body;
 mod canvas;
 mod clip;
 mod color;
@@ -44,6 +45,7 @@ mod svg;
 mod ticks;
 
 pub use axis::{Axis, Scale};
+pub use body::{Body, Triangle};
 pub use color::{Color, ColorMap};
 pub use heat_map::HeatMap;
 pub use reference::Reference;

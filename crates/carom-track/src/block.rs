@@ -1,7 +1,8 @@
 //! Some particles, tracked to the end: their rows in order, and their part of the summary.
 
 use crate::case::Case;
-use crate::deposition::{Cell, Sorter};
+use crate::deposition::{Brought, Cell, Sorter};
+use crate::exact_sum::ExactSum;
 use crate::record::columns::Columns;
 use crate::record::{End, Event, ImpactRecord, Sink};
 use crate::run::RunError;
@@ -10,6 +11,7 @@ use crate::summary::Summary;
 use crate::tables::{DEPOSIT, FATES, IMPACTS, LAYOUTS, TRAJECTORIES, Words, push_deposit, push_end, push_impact};
 use crate::tracker::Particle;
 use crate::vector::Vec3;
+use carom::erosion::Hit;
 use std::io;
 use std::ops::Range;
 use std::path::PathBuf;
@@ -91,6 +93,17 @@ impl<'a> Recording<'a> {
         }
         encoded.columns = forms.columns.then_some(columns);
         encoded
+    }
+
+    /// What an impact of that mass brings.
+    fn brought(&self, impact: &ImpactRecord, mass: f64) -> Brought {
+        let law = self.case.erosion.get(impact.wall).and_then(Option::as_ref);
+        let eroded = law.map(|law| {
+            let (normal, tangential) = (impact.normal_speed_in, impact.tangential_speed_in);
+            law.mass(&Hit { mass, diameter: impact.diameter, normal, tangential })
+        });
+        let size = self.case.bins.by_face.then(|| self.sorter.size(impact.diameter) as u32);
+        Brought { mass, eroded, size }
     }
 
     /// Tracks the particles of a range of numbers.
@@ -208,13 +221,13 @@ impl Sink for Collector<'_> {
         let own = self.own(impact.particle);
         own.impacts += 1;
         let mass = own.mass;
-        self.summary.impact(impact, mass);
+        self.summary.impact(impact, &self.recording.brought(impact, mass));
         self.row(impact);
     }
 
     fn contact_ended(&mut self, row: &ImpactRecord) {
         let mass = self.own(row.particle).mass;
-        self.summary.contact_ended(row, mass);
+        self.summary.contact_ended(row, &self.recording.brought(row, mass));
         self.row(row);
     }
 
@@ -246,5 +259,9 @@ impl Sink for Collector<'_> {
 
 /// A summary of nothing.
 pub(crate) fn empty(case: &Case) -> Summary {
-    Summary::new(&case.title, case.domain.walls().iter().map(|w| w.name.clone()), &case.bins)
+    let mut summary = Summary::new(&case.title, case.domain.walls().iter().map(|w| w.name.clone()), &case.bins);
+    for (wall, law) in summary.walls.iter_mut().zip(&case.erosion) {
+        wall.eroded = law.map(|_| ExactSum::default());
+    }
+    summary
 }

@@ -5,6 +5,7 @@
 
 mod cells;
 mod check;
+mod erosion;
 mod files;
 mod flow;
 mod fluid;
@@ -26,6 +27,7 @@ use crate::flow::Flow;
 use crate::injection::Start;
 use crate::tables::TableFormat;
 use crate::tracker::{Behavior, Particle, Settings, SettleHeight, Tracker};
+use carom::erosion::Erosion;
 use carom::material::{Library, Material};
 use carom::{Impact, LawError};
 use check::{positive, wrong};
@@ -50,6 +52,8 @@ pub struct Case {
     pub dynamics: Dynamics,
     /// What each wall does.
     pub behaviors: Vec<Behavior>,
+    /// What impacts take away of each wall.
+    pub erosion: Vec<Option<Erosion>>,
     /// The injections, in the order of particle numbers.
     pub injections: Vec<Injected>,
     /// How it is tracked.
@@ -128,6 +132,12 @@ impl Case {
                 removal::with_removal(behavior, &at.value, &flow, &fluid, largest)
             })
             .collect::<Result<Vec<_>, _>>()?;
+        let erosion = read
+            .wall
+            .iter()
+            .zip(&behaviors)
+            .map(|(at, behavior)| erosion::of(&at.value, behavior))
+            .collect::<Result<Vec<_>, _>>()?;
         unused_laws(&read, &laws, library)?;
         let settings = settings(&read, seed, &behaviors)?;
         injected_in_the_fluid(&walls, &injections, &behaviors)?;
@@ -155,6 +165,7 @@ impl Case {
             domain,
             dynamics,
             behaviors,
+            erosion,
             injections,
             settings,
             trajectories: output.trajectories.map_or(TRAJECTORIES, |t| t.value.0),
@@ -324,12 +335,17 @@ fn bins(output: &OutputText) -> Result<Bins, LawError> {
             );
         }
     }
+    let by_face = output.face_sizes.as_ref().is_some_and(|f| f.value);
+    if let Some(at) = output.face_sizes.as_ref().filter(|_| by_face && sizes.is_empty()) {
+        return Err(wrong(at, "face_sizes without sizes")
+            .help("give the edges of the size bins: size_bins = [\"1 um\", \"10 um\"]"));
+    }
     let region = |r: &carom::spec::At<text::RegionText>| {
         let (a, b) = (r.value.room[0].si(), r.value.room[1].si());
         let name = r.value.name.value.clone();
         Region { name, min: [0, 1, 2].map(|c| a[c].min(b[c])), max: [0, 1, 2].map(|c| a[c].max(b[c])) }
     };
-    Ok(Bins { sizes, regions: output.region.iter().map(region).collect() })
+    Ok(Bins { sizes, by_face, regions: output.region.iter().map(region).collect() })
 }
 
 /// No sphere may start inside a wall.
@@ -350,7 +366,7 @@ fn injected_in_the_fluid(walls: &[Wall], injections: &[Injected], behaviors: &[B
                         injected.name, wall.name, injected.largest, -gap
                     );
                     return Err(LawError::new(message)
-                        .help("a normal points out of the wall into the fluid; a sphere needs one radius of room")
+                        .help(injection::room(&plan.source, wall, 0.5 * injected.largest))
                         .at(injected.place.clone()));
                 }
             }

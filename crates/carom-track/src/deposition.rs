@@ -6,6 +6,7 @@
 mod faces;
 mod regions;
 
+pub(crate) use faces::Brought;
 pub use faces::{FaceTally, Faces};
 pub(crate) use regions::Sorter;
 
@@ -36,6 +37,9 @@ impl Region {
 pub struct Bins {
     /// Edges of the size bins, m, rising; below the first and above the last are bins too.
     pub sizes: Vec<f64>,
+    /// Whether the faces of walls made of triangles count what they keep by size bin too.
+    #[serde(default)]
+    pub by_face: bool,
     /// Regions; whatever lies in none is counted under an empty name.
     pub regions: Vec<Region>,
 }
@@ -199,7 +203,7 @@ mod tests {
     #[test]
     fn bins_and_regions_hold_what_they_say() {
         let region = Region { name: "left".into(), min: [0.0; 3], max: [1.0; 3] };
-        let bins = Bins { sizes: vec![1e-5, 2e-5], regions: vec![region] };
+        let bins = Bins { sizes: vec![1e-5, 2e-5], by_face: false, regions: vec![region] };
         let sorter = Sorter::new(&bins);
         assert_eq!([5e-6, 1e-5, 1.5e-5, 3e-5].map(|d| sorter.size(d)), [0, 1, 1, 2]);
         assert_eq!((bins.bounds(0), bins.bounds(2)), ((0.0, 1e-5), (2e-5, f64::INFINITY)));

@@ -14,6 +14,8 @@ pub(crate) mod spill;
 mod stream;
 mod vtp;
 
+pub use vtp::{DepositFace, deposit_faces};
+
 pub use merge::merge;
 
 use crate::block::{self, Recording};

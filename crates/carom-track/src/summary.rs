@@ -1,6 +1,6 @@
 //! What a run came to: counts, and masses summed without rounding.
 
-use crate::deposition::{Bins, Cell, Deposition, Faces, Sorter};
+use crate::deposition::{Bins, Brought, Cell, Deposition, Faces, Sorter};
 use crate::exact_sum::ExactSum;
 use crate::record::{End, Event, Fate, ImpactRecord};
 use carom::removal::Mode;
@@ -47,6 +47,9 @@ pub struct WallTally {
     pub removed: [u64; 3],
     /// Impacts whose outcome carried each validity code, in the order of [`CODES`].
     pub doubts: [u64; CODES.len()],
+    /// Mass of it that impacts took away, kg, where it has a law of erosion.
+    #[serde(default)]
+    pub eroded: Option<ExactSum>,
 }
 
 /// A run, or a part of one. Parts add up to the whole, to the bit, in any order.
@@ -104,9 +107,12 @@ impl Summary {
         self.injected.add(mass);
     }
 
-    pub(crate) fn impact(&mut self, impact: &ImpactRecord, mass: f64) {
-        self.faces.impact(impact, mass);
+    pub(crate) fn impact(&mut self, impact: &ImpactRecord, brought: &Brought) {
+        self.faces.impact(impact, brought);
         if let Some(wall) = self.walls.get_mut(impact.wall) {
+            if let Some(eroded) = brought.eroded {
+                wall.eroded.get_or_insert_default().add(eroded);
+            }
             wall.impacts += 1;
             wall.rebounds += u64::from(impact.event == Event::Rebound);
             if let Event::Remove(mode) = impact.event {
@@ -121,9 +127,9 @@ impl Summary {
     }
 
     /// Counts what settled at the end of a contact motion on the face where it did.
-    pub(crate) fn contact_ended(&mut self, row: &ImpactRecord, mass: f64) {
+    pub(crate) fn contact_ended(&mut self, row: &ImpactRecord, brought: &Brought) {
         if row.event == Event::Settle {
-            self.faces.impact(row, mass);
+            self.faces.impact(row, &Brought { eroded: None, ..*brought });
         }
     }
 
@@ -149,6 +155,9 @@ impl Summary {
             a.removed.iter_mut().zip(b.removed).for_each(|(a, b)| *a += b);
             for (a, b) in a.ends.iter_mut().zip(&b.ends) {
                 a.merge(b);
+            }
+            if let Some(eroded) = &b.eroded {
+                a.eroded.get_or_insert_default().merge(eroded);
             }
             a.doubts.iter_mut().zip(b.doubts).for_each(|(a, b)| *a += b);
         }
@@ -235,6 +244,9 @@ impl Serialize for One<'_> {
             let amount = &self.0.ends[fate as usize];
             map.serialize_entry(fate.name(), &amount.count)?;
             map.serialize_entry(&format!("{}_mass", fate.name()), &amount.mass.value())?;
+        }
+        if let Some(eroded) = &self.0.eroded {
+            map.serialize_entry("eroded_mass", &eroded.value())?;
         }
         map.serialize_entry("removed_by", &Modes(self.0.removed))?;
         map.serialize_entry("validity", &Doubts(&counted(self.0.doubts.into_iter()).collect::<Vec<_>>()))?;

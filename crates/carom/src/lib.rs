@@ -20,7 +20,7 @@
 //!
 //! Where to look: one file per mechanism in [`normal`] and [`tangential`]; the equation of motion in [`resolved`]; materials and their
 //! sources in [`material`]; rough walls that scatter in
-//! [`scatter`]; curved ones in [`curvature`]; what removes a captured sphere in [`removal`]; what a result's doubts mean in [`validity`]. SI units throughout; angles from the surface.
+//! [`scatter`]; curved ones in [`curvature`]; what removes a captured sphere in [`removal`]; what impacts take away of the wall in [`erosion`]; what a result's doubts mean in [`validity`]. SI units throughout; angles from the surface.
 //!
 //! # How do I ...
 //!
@@ -38,6 +38,7 @@
 //! | add adhesion's roughness factor from measured roughness | [`roughness`] |
 //! | treat a rough wall that scatters | [`scatter`] |
 //! | know what takes a captured sphere off again | [`removal`] |
+//! | know what an impact takes away of the wall | [`erosion`] |
 //! | see force and overlap during the contact | [`resolved`] |
 //! | add a loss | [`normal`], and the recipe in the repository's guide for contributors |
 //!
@@ -60,6 +61,7 @@ extern crate alloc;
 
 pub mod batch;
 pub mod curvature;
+pub mod erosion;
 pub mod error;
 pub mod impact;
 pub mod instructions;

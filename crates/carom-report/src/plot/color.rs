@@ -33,7 +33,7 @@ impl Color {
         Self::PALETTE[index % Self::PALETTE.len()]
     }
 
-    fn mix(self, other: Self, share: f64) -> Self {
+    pub(super) fn mix(self, other: Self, share: f64) -> Self {
         let mix = |a: u8, b: u8| (f64::from(a) + share * (f64::from(b) - f64::from(a))).round() as u8;
         Self(mix(self.0, other.0), mix(self.1, other.1), mix(self.2, other.2))
     }

@@ -13,8 +13,8 @@ use super::{Axis, Color, ColorMap, ImageFormat, SIZE, svg, write_image};
 use crate::ReportError;
 
 /// Colour of a cell without a value.
-const MISSING: Color = Color(225, 225, 225);
-const BAR_WIDTH: f64 = 20.0;
+pub(super) const MISSING: Color = Color(225, 225, 225);
+pub(super) const BAR_WIDTH: f64 = 20.0;
 
 /// A map of a value over cells between edges, with a colour bar.
 ///
@@ -180,29 +180,8 @@ impl HeatMap {
     }
 
     fn draw_bar(&self, canvas: &mut Canvas, frame: &Frame, ticks: &[(f64, Tick)]) {
-        let (left, top, bottom) = (frame.rect.right + 18.0, frame.rect.top, frame.rect.bottom);
-        let right = left + BAR_WIDTH;
-        let height = frame.rect.height();
-        let steps = height.round().max(1.0) as u32;
-        for step in 0..steps {
-            let at = |i: f64| (bottom - height * i / f64::from(steps)).max(top);
-            let (foot, head) = (at(f64::from(step)), at(f64::from(step) + 2.0));
-            let share = (f64::from(step) + 0.5) / f64::from(steps);
-            canvas.rectangle([left, foot], [right, head], self.colors.at(share), 1.0);
-        }
-        let stroke = Stroke::new(Color(70, 70, 70), 1.0);
-        canvas.line(&[[left, top], [right, top], [right, bottom], [left, bottom], [left, top]], stroke);
-        for (share, tick) in ticks {
-            let at = bottom - share * height;
-            let length = if tick.label.is_some() { 5.0 } else { 3.0 };
-            canvas.line(&[[right, at], [right + length, at]], stroke);
-            if let Some(text) = &tick.label {
-                canvas.text([right + 9.0, at + 0.36 * TICK], Label::new(text, TICK, Anchor::Start));
-            }
-        }
-        let heading = self.value.heading();
-        let at = [right + 9.0 + widest(ticks) + 24.0, 0.5 * (top + bottom)];
-        canvas.text(at, Label { upright: true, ..Label::new(&heading, LABEL, Anchor::Middle) });
+        let place = [frame.rect.right + 18.0, frame.rect.top, frame.rect.bottom];
+        color_bar(canvas, place, self.colors, ticks, &self.value.heading());
     }
 
     /// The map as PNG bytes, two pixels for each CSS pixel.
@@ -223,4 +202,34 @@ impl HeatMap {
         let format = ImageFormat::from_path(path)?;
         write_image(path, format, &self.drawn()?)
     }
+}
+
+/// A bar of colours with its divisions and heading, by its left edge, top and bottom.
+pub(super) fn color_bar(
+    canvas: &mut Canvas,
+    [left, top, bottom]: [f64; 3],
+    colors: ColorMap,
+    ticks: &[(f64, Tick)],
+    heading: &str,
+) {
+    let (right, height) = (left + BAR_WIDTH, bottom - top);
+    let steps = height.round().max(1.0) as u32;
+    for step in 0..steps {
+        let at = |i: f64| (bottom - height * i / f64::from(steps)).max(top);
+        let (foot, head) = (at(f64::from(step)), at(f64::from(step) + 2.0));
+        let share = (f64::from(step) + 0.5) / f64::from(steps);
+        canvas.rectangle([left, foot], [right, head], colors.at(share), 1.0);
+    }
+    let stroke = Stroke::new(Color(70, 70, 70), 1.0);
+    canvas.line(&[[left, top], [right, top], [right, bottom], [left, bottom], [left, top]], stroke);
+    for (share, tick) in ticks {
+        let at = bottom - share * height;
+        let length = if tick.label.is_some() { 5.0 } else { 3.0 };
+        canvas.line(&[[right, at], [right + length, at]], stroke);
+        if let Some(text) = &tick.label {
+            canvas.text([right + 9.0, at + 0.36 * TICK], Label::new(text, TICK, Anchor::Start));
+        }
+    }
+    let at = [right + 9.0 + widest(ticks) + 24.0, 0.5 * (top + bottom)];
+    canvas.text(at, Label { upright: true, ..Label::new(heading, LABEL, Anchor::Middle) });
 }

@@ -3,6 +3,7 @@
 use super::cells::Openings;
 use super::check::{positive, unknown, word, wrong};
 use super::text::{InjectionText, PatchText, PlaceText, PlacesText, Si, SizeText, SizesText, VelocityText};
+use crate::domain::Wall;
 use crate::flow::{Flow, Fluid};
 use crate::force::Slip;
 use crate::injection::{
@@ -218,6 +219,24 @@ fn place(at: &At<PlaceText>, openings: &Openings) -> Result<Source, LawError> {
         (None, None, Some(p)) => Ok(Source::Patch { corner: p.corner.si(), sides: [p.sides[0].si(), p.sides[1].si()] }),
         _ => Err(wrong(at, "a position is a point or one of box, disc and patch")),
     }
+}
+
+/// What would be right where spheres of that radius start within a wall: for a disc that reaches too far, how large it may be.
+pub(super) fn room(source: &Source, wall: &Wall, reach: f64) -> String {
+    const USUAL: &str = "a normal points out of the wall into the fluid; a sphere needs one radius of room";
+    let Source::Disc { centre, radius, .. } = source else { return USUAL.to_owned() };
+    let gap = |x: [f64; 3]| wall.shape.distance(x) - wall.clearance(reach);
+    let least = hull(source).into_iter().map(gap).fold(f64::INFINITY, f64::min);
+    // the centre itself must have room: then only the rim reaches too far
+    if gap(*centre) > 0.0 && radius + least > 0.0 {
+        let most = (radius + least) * (1.0 - 1e-6);
+        let by = radius - most;
+        return format!(
+            "the disc's rim is too near the wall for spheres of {} m: a radius of {most:.6e} m, smaller by {by:.2e} m, leaves them room",
+            2.0 * reach
+        );
+    }
+    USUAL.to_owned()
 }
 
 /// Points whose convex hull holds every start.

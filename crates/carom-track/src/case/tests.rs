@@ -3,6 +3,7 @@ use crate::force::{NearWall, RandomWalk};
 
 mod cells;
 mod curvature;
+mod erosion;
 mod fluid;
 mod flux;
 mod forces;

@@ -1,5 +1,6 @@
 //! The case file as written: what serde reads, with places, before anything is checked.
 
+use super::erosion::ErosionText;
 use super::removal::RemovalText;
 use super::whole::Whole;
 use crate::tables::TableFormat;
@@ -159,6 +160,7 @@ pub(super) struct WallText {
     pub tangential_restitution: Option<At<CurveSpec>>,
     pub contact_at: Option<At<String>>,
     pub removal: Option<At<RemovalText>>,
+    pub erosion: Option<At<ErosionText>>,
     pub velocity: Option<At<[Speed; 3]>>,
 }
 
@@ -316,6 +318,7 @@ pub(super) struct OutputText {
     pub fates: Option<RowsText>,
     pub vtk: Option<bool>,
     pub size_bins: Option<At<Vec<Length>>>,
+    pub face_sizes: Option<At<bool>>,
     #[serde(default)]
     pub region: Vec<At<RegionText>>,
 }

@@ -21,6 +21,22 @@ pub struct FaceTally {
     angle: ExactSum,
     /// What it kept.
     pub kept: Amount,
+    /// The same by size bin, where that is asked for; bins of which it kept nothing take no room.
+    #[serde(with = "pairs", default)]
+    sizes: BTreeMap<u32, Amount>,
+    /// What impacts took away of it, kg.
+    eroded: ExactSum,
+}
+
+/// What an impact brings to a face besides itself.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Brought {
+    /// Mass of what hits, kg.
+    pub mass: f64,
+    /// Mass of wall that it takes away, kg, where the wall has a law of erosion.
+    pub eroded: Option<f64>,
+    /// Size bin, where faces count by size.
+    pub size: Option<u32>,
 }
 
 impl FaceTally {
@@ -30,6 +46,20 @@ impl FaceTally {
         self.speed.merge(&other.speed);
         self.angle.merge(&other.angle);
         self.kept.merge(&other.kept);
+        self.eroded.merge(&other.eroded);
+        for (size, amount) in &other.sizes {
+            self.sizes.entry(*size).or_default().merge(amount);
+        }
+    }
+
+    /// Mass of the wall that impacts took away here, kg.
+    pub fn eroded(&self) -> f64 {
+        self.eroded.value()
+    }
+
+    /// What it kept of a size bin.
+    pub fn kept_of(&self, size: u32) -> Option<&Amount> {
+        self.sizes.get(&size)
     }
 
     /// Mean speed of the impacts, m/s, relative to the wall.
@@ -58,7 +88,7 @@ impl Faces {
         self.0.iter().map(|((wall, face), tally)| (*wall as usize, *face, tally))
     }
 
-    pub(crate) fn impact(&mut self, impact: &ImpactRecord, mass: f64) {
+    pub(crate) fn impact(&mut self, impact: &ImpactRecord, brought: &Brought) {
         let Some(face) = impact.face else { return };
         let tally = self.0.entry((impact.wall as u32, face)).or_default();
         let (across, along, weight) = (impact.normal_speed_in, impact.tangential_speed_in, impact.weight);
@@ -67,7 +97,13 @@ impl Faces {
         tally.speed.add(weight * (across * across + along * along).sqrt());
         tally.angle.add(weight * carom::math::atan2(across, along));
         if matches!(impact.event, Event::Capture | Event::Settle | Event::Trap) {
-            tally.kept.add(mass);
+            tally.kept.add(brought.mass);
+            if let Some(size) = brought.size {
+                tally.sizes.entry(size).or_default().add(brought.mass);
+            }
+        }
+        if let Some(eroded) = brought.eroded {
+            tally.eroded.add(eroded);
         }
     }
 

@@ -88,7 +88,7 @@ mod tests {
                 let [min, max] = [[b[0], b[1], b[2]], [b[0] + b[3], b[1] + b[4], b[2] + b[5]]];
                 Region { name: String::new(), min: min.map(f64::from), max: max.map(f64::from) }
             });
-            let bins = Bins { sizes: Vec::new(), regions: regions.collect() };
+            let bins = Bins { sizes: Vec::new(), by_face: false, regions: regions.collect() };
             let sorter = Sorter::new(&bins);
             for place in places {
                 // on edges and between them

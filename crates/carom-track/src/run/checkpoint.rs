@@ -46,7 +46,7 @@ pub(super) struct State {
 }
 
 /// The form of checkpoints.
-const VERSION: u32 = 4;
+const VERSION: u32 = 5;
 const PROGRAM: &str = env!("CARGO_PKG_VERSION");
 
 /// What stands between a checkpoint and its checksum, at the end of the file.

@@ -16,6 +16,7 @@ gravity = ["0 m/s2", "-9.81 m/s2", "0 m/s2"]
 name = "floor"
 plane = { point = [0, 0, 0], normal = [0, 1, 0] }
 law = "plate"
+erosion = { law = "oka", material = "sand-on-steel" }
 [[wall]]
 name = "ceiling"
 plane = { point = [0, 0.02, 0], normal = [0, -1, 0] }

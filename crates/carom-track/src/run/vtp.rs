@@ -3,16 +3,21 @@
 //! Made from the cells that the run wrote as it went on, each read once: the length of every array is known beforehand, so that
 //! its values go straight to their places. Memory stays flat, values keep all their bits.
 
+mod shown;
+
 use super::RunError;
 use super::checkpoint::State;
 use super::disk::{Disk, UNFINISHED};
 use super::output::cells_file;
 use crate::record::columns::CELL;
 use crate::tables::{DEPOSIT as DEPOSITS, LAYOUTS, TRAJECTORIES};
+use std::borrow::Cow;
 use std::fmt::Write as _;
 use std::fs::File;
 use std::io::{BufReader, BufWriter, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::path::Path;
+
+pub use shown::{DepositFace, deposit_faces};
 
 /// The files' names.
 pub(super) const PATHS: &str = "trajectories.vtp";
@@ -72,7 +77,7 @@ impl Cells {
 
 /// What the XML says of an array, and where its next value goes.
 struct Array {
-    name: &'static str,
+    name: Cow<'static, str>,
     kind: &'static str,
     components: usize,
     /// Values of all rows.
@@ -82,12 +87,12 @@ struct Array {
 }
 
 impl Array {
-    fn floats<const N: usize>(name: &'static str, rows: u64) -> Self {
-        Self { name, kind: "Float64", components: N, values: rows * N as u64, at: 0, waiting: Vec::new() }
+    fn floats<const N: usize>(name: impl Into<Cow<'static, str>>, rows: u64) -> Self {
+        Self { name: name.into(), kind: "Float64", components: N, values: rows * N as u64, at: 0, waiting: Vec::new() }
     }
 
-    fn integers(name: &'static str, rows: u64) -> Self {
-        Self { name, kind: "Int64", components: 1, values: rows, at: 0, waiting: Vec::new() }
+    fn integers(name: impl Into<Cow<'static, str>>, rows: u64) -> Self {
+        Self { name: name.into(), kind: "Int64", components: 1, values: rows, at: 0, waiting: Vec::new() }
     }
 
     fn bytes(&self) -> u64 {
@@ -251,7 +256,8 @@ fn deposit(folder: &Path, state: &State, disk: &dyn Disk) -> Result<u64, RunErro
         groups.push(("Polys", vec![Array::integers("connectivity", 3 * polys), Array::integers("offsets", polys)]));
         let integers = ["wall", "face", "number", "impacts"].map(|name| Array::integers(name, cells));
         let floats = ["mass", "mean_impact_speed", "mean_impact_angle"].map(|name| Array::floats::<1>(name, cells));
-        groups.push(("CellData", integers.into_iter().chain(floats).collect()));
+        let more = maps(state).map(|map| Array::floats::<1>(map.name(state), cells));
+        groups.push(("CellData", integers.into_iter().chain(floats).chain(more).collect()));
     }
     let path = unfinished(folder, DEPOSIT);
     let mut file = Vtp::create(&path, &piece, groups)?;
@@ -275,6 +281,9 @@ fn deposit(folder: &Path, state: &State, disk: &dyn Disk) -> Result<u64, RunErro
                 file.put(15, &[0f64.to_le_bytes()])?;
                 file.put(16, &[NAN])?;
                 file.put(17, &[NAN])?;
+                for (i, map) in maps(state).enumerate() {
+                    file.put(18 + i, &[map.at_points()])?;
+                }
             }
             Ok(())
         };
@@ -286,6 +295,52 @@ fn deposit(folder: &Path, state: &State, disk: &dyn Disk) -> Result<u64, RunErro
         put_faces(&mut file, triangles, state, &faces, point).map_err(|e| at(e, &path))?;
     }
     file.finish(folder, DEPOSIT, disk)
+}
+
+/// What is told of faces where the case asks for it.
+#[derive(Clone, Copy, Debug)]
+enum Map {
+    /// Mass that impacts took away, kg; not a number on walls without a law of erosion.
+    Eroded,
+    /// Mass kept of a size bin, kg.
+    Size(u32),
+}
+
+fn maps(state: &State) -> impl Iterator<Item = Map> + use<> {
+    let eroded = state.summary.walls.iter().any(|w| w.eroded.is_some()).then_some(Map::Eroded);
+    let sizes = if state.bins.by_face { state.bins.sizes.len() as u32 + 1 } else { 0 };
+    eroded.into_iter().chain((0..sizes).map(Map::Size))
+}
+
+impl Map {
+    fn name(self, state: &State) -> Cow<'static, str> {
+        let edge = |i: u32| {
+            let edge = state.bins.sizes.get(i as usize).map_or(f64::INFINITY, |edge| edge * 1e6);
+            carom_table::significant(edge, 6)
+        };
+        match self {
+            Self::Eroded => "eroded_mass".into(),
+            Self::Size(0) => format!("mass_below_{}_um", edge(0)).into(),
+            Self::Size(i) if i as usize == state.bins.sizes.len() => format!("mass_from_{}_um", edge(i - 1)).into(),
+            Self::Size(i) => format!("mass_{}_to_{}_um", edge(i - 1), edge(i)).into(),
+        }
+    }
+
+    /// At a deposit's point: as at a face without.
+    fn at_points(self) -> Cell {
+        match self {
+            Self::Eroded => NAN,
+            Self::Size(_) => 0f64.to_le_bytes(),
+        }
+    }
+
+    fn of(self, state: &State, wall: usize, tally: &crate::deposition::FaceTally) -> f64 {
+        match self {
+            Self::Eroded if state.summary.walls.get(wall).is_none_or(|w| w.eroded.is_none()) => f64::NAN,
+            Self::Eroded => tally.eroded(),
+            Self::Size(size) => tally.kept_of(size).map_or(0.0, |kept| kept.mass.value()),
+        }
+    }
 }
 
 fn at(error: RunError, path: &Path) -> RunError {
@@ -320,6 +375,9 @@ fn put_faces(file: &mut Vtp, triangles: Cells, state: &State, source: &Path, mut
         file.put(15, &[tally.kept.mass.value().to_le_bytes()])?;
         file.put(16, &[tally.mean_speed().to_le_bytes()])?;
         file.put(17, &[tally.mean_angle().to_degrees().to_le_bytes()])?;
+        for (i, map) in maps(state).enumerate() {
+            file.put(18 + i, &[map.of(state, wall as usize, tally).to_le_bytes()])?;
+        }
         Ok(())
     })
 }

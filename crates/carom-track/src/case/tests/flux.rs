@@ -105,3 +105,19 @@ fn settling_between_plates_is_that_of_an_aerosol() {
     let uniform = settled("uniform", length);
     assert!((uniform - 0.287).abs() < 3.0 * spread * 1.13, "seed 1: {uniform}");
 }
+
+#[test]
+fn a_disc_that_fills_its_pipe_is_told_how_large_it_may_be() {
+    let text = |radius: &str| {
+        format!(
+            "[flow]\nkind = \"pipe\"\nprofile = \"laminar\"\npoint = [0, 0, 0]\naxis = [1, 0, 0]\nradius = \"10 mm\"\nmean_speed = 1\n\
+             [[wall]]\nname = \"pipe\"\ncylinder = {{ point = [0, 0, 0], axis = [1, 0, 0], radius = \"10 mm\" }}\nlaw = \"trap\"\n\
+             [[injection]]\ndensity = 1000\ndiameter = \"100 um\"\ndistribution = \"flux\"\n\
+             position = {{ disc = {{ center = [0, 0, 0], normal = [1, 0, 0], radius = {radius} }} }}\n[run]\nuntil = 1\n"
+        )
+    };
+    let error = read(&text("\"10 mm\"")).unwrap_err();
+    let shown = error.located("case.toml", &text("\"10 mm\""));
+    assert!(shown.contains("a radius of 9.949990e-3 m, smaller by 5.00e-5 m"), "{shown}");
+    assert!(read(&text("9.949990e-3")).is_ok());
+}

@@ -153,14 +153,18 @@ fn the_faces_of_a_wall_of_triangles_hold_what_it_kept() {
         name = "box"
         stl = { file = "box.stl", unit = "1 mm" }
         law = "trap"
+        erosion = { law = "dnv", material = "steel" }
         [[injection]]
         density = 2500
-        diameter = "200 um"
+        diameter = { table = { diameter = ["50 um", "150 um", "200 um"], amount = [0, 1, 3] } }
         count = 3000
         position = { box = [["10 mm", "5 mm", "5 mm"], ["40 mm", "15 mm", "25 mm"]] }
         velocity = [0, 3, 4]
         [run]
         until = "1 s"
+        [output]
+        size_bins = ["100 um", "150 um"]
+        face_sizes = true
         "#;
     let case = Case::from_toml(text, &at("case.toml"), Library::builtin()).unwrap();
     let summary = run(&case, &options(&at("whole"), 2), &Silent).unwrap();
@@ -192,6 +196,28 @@ fn the_faces_of_a_wall_of_triangles_hold_what_it_kept() {
         let wanted = if face > 3 { f64::atan2(3.0, 4.0) } else { f64::atan2(4.0, 3.0) };
         assert!((angles[cell] - wanted.to_degrees()).abs() < 1e-6, "{} {wanted}", angles[cell]);
     }
+    // 2e-9 · 5^2.6 · F(α) of the mass that hit; each size bin's masses add up to all
+    let lost = floats("eroded_mass");
+    let sizes = ["mass_below_100_um", "mass_100_to_150_um", "mass_from_150_um"].map(floats);
+    assert!(lost[..3000].iter().all(|m| m.is_nan()) && sizes[0].iter().all(|m| *m == 0.0));
+    let near = |a: f64, b: f64| (a - b).abs() <= 1e-12 * b.abs();
+    for cell in 3000..3012 {
+        let share = if cell - 3000 > 3 { 1.001_812_917_2 } else { 0.943_862_500_3 };
+        let want = masses[cell] * 2e-9 * 5f64.powf(2.6) * share;
+        assert!((lost[cell] - want).abs() <= 1e-6 * want, "{} {want}", lost[cell]);
+        assert!(near(sizes[1][cell] + sizes[2][cell], masses[cell]));
+    }
+    let of_wall = summary.walls[1].eroded.as_ref().map(crate::exact_sum::ExactSum::value);
+    assert!(summary.walls[0].eroded.is_none() && near(of_wall.unwrap(), lost[3000..].iter().sum()));
+    let json: serde_json::Value = serde_json::from_slice(&fs::read(at("whole").join("summary.json")).unwrap()).unwrap();
+    assert_eq!(json["walls"]["box"]["eroded_mass"].as_f64(), of_wall);
+    assert!(json["walls"]["floor"].get("eroded_mass").is_none());
+    let shown = crate::deposit_faces(&at("whole")).unwrap();
+    assert!(shown.len() == 12 && shown.iter().all(|f| f.wall == 1));
+    for (face, cell) in shown.iter().zip(3000..) {
+        assert_eq!((face.mass, face.eroded, face.impacts as i64), (masses[cell], lost[cell], numbers[cell]));
+    }
+    assert_eq!(shown[0].corners.as_flattened(), &floats("points")[3 * 3000..3 * 3003]);
     // the corners are those of the file
     let corners = &floats("points")[3 * 3000..];
     assert!(corners.iter().all(|c| [0.0, 0.02, 0.03, 0.05].iter().any(|e| (c - e).abs() < 1e-8)));
