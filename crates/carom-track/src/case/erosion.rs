@@ -10,7 +10,7 @@ use carom::units::{Density, Length, Number, Pressure, Speed};
 use std::ops::Range;
 
 /// A law's name, a material of its source, and numbers.
-#[derive(Debug, serde::Deserialize)]
+#[derive(Debug, Clone, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ErosionText {
     law: At<String>,
