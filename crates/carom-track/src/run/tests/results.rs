@@ -156,7 +156,7 @@ fn the_faces_of_a_wall_of_triangles_hold_what_it_kept() {
         erosion = { law = "dnv", material = "steel" }
         [[injection]]
         density = 2500
-        diameter = { table = { diameter = ["50 um", "150 um", "200 um"], amount = [0, 1, 3] } }
+        diameter = { table = { diameter = ["120 um", "200 um"], amount = [1, 3] } }
         count = 3000
         position = { box = [["10 mm", "5 mm", "5 mm"], ["40 mm", "15 mm", "25 mm"]] }
         velocity = [0, 3, 4]
