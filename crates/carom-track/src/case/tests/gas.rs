@@ -74,7 +74,7 @@ fn drag_follows_the_temperature_on_the_way() {
     let table = "x,u,T\n-1e-3,0,1000\n1e-3,0,200\n9e-3,0,1800\n";
     let temperature = |x: f64| if x < 1e-3 { 600.0 - 4e5 * x } else { 200.0 + 2e5 * (x - 1e-3) };
     let air = |t: f64| Fluid::air(t, 101_325.0).unwrap();
-    for (d, speed, until) in [(5e-5, 0.3, "0.5 s"), (1e-5, 5.0, "0.05 s"), (3e-5, 1.0, "0.5 s")] {
+    for (d, speed, until) in [(5e-5, 0.3, "60 ms"), (1e-5, 5.0, "3 ms"), (3e-5, 1.0, "25 ms")] {
         let at = format!("diameter = {d}\nposition = [0, 0, 0]\nvelocity = [{speed}, 0, 0]");
         let forces = "drag = \"stokes\"\nslip = \"none\"\nbuoyancy = false";
         let stopped = end(&case(folder, table, "", forces, &at, until).unwrap());
