@@ -308,7 +308,14 @@ mod tests {
 
     #[test]
     fn many_triangles_make_no_large_file() {
-        let many: Vec<_> = (0..200_000).flat_map(|i| square(1.0, 0.0, f64::from(i % 7))).collect();
+        // a field of 100 × 100 small squares, two triangles each
+        let small = |i: u32| {
+            let by = [f64::from(i % 100), f64::from(i / 100), 0.0];
+            let shifted = move |x: [f64; 3]| [0, 1, 2].map(|c| x[c] + by[c]);
+            square(0.5, 0.0, f64::from(i % 7)).into_iter().map(move |(t, value)| (t.map(shifted), value))
+        };
+        let many: Vec<_> = (0..10_000).flat_map(small).collect();
+        assert!(many.len() > FEW);
         assert!(body(many).svg().is_ok_and(|s| s.len() < 2_000_000));
     }
 }
