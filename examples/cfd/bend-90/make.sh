@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # The flow in the bend, with a parabolic profile at the inlet (U) and with a flat one (UPlug), 20 s each.
 #
-#   ./make.sh                     # the stored mesh: 21 600 cells in half the pipe
-#   ./make.sh 3 5 7 23 8 FOLDER   # another: cells of the core, the ring, before, round and after the bend
+#   ./make.sh                        # the stored mesh: 21 600 cells in half the pipe
+#   ./make.sh 3 5 7 23 8 20 FOLDER   # another: cells of the core, the ring, before, round and after the bend, mm straight before it
 . "$(dirname "$0")/../solve.sh"
-cells=(${1:-6} ${2:-9} ${3:-14} ${4:-45} ${5:-16})
-case=${6:-case}
+cells=(${1:-6} ${2:-9} ${3:-14} ${4:-45} ${5:-16} ${6:-20})
+case=${7:-case}
 [[ $case = case ]] || { mkdir -p "$case"; cp -r case/{0.orig,constant,system} "$case"; }
 mesh() {
     "$here/mesh.py" dictionary "${cells[@]}" >system/blockMeshDict

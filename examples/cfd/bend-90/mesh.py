@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Half a pipe with a 90 degree bend, as blockMesh's dictionary, and the bending itself.
 
-    ./mesh.py dictionary CORE RING BEFORE ROUND AFTER > system/blockMeshDict      # numbers of cells
+    ./mesh.py dictionary CORE RING BEFORE ROUND AFTER [MM] > system/blockMeshDict # numbers of cells, straight length before the bend
     ./mesh.py bend constant/polyMesh/points                                       # of the mesh that blockMesh made of it
 
 blockMesh makes the straight pipe along z, x >= 0, a core and a ring round it; then the points are carried round the bend, so that
@@ -14,11 +14,12 @@ from pathlib import Path
 RADIUS = 5e-3
 BEND = 5.7 * RADIUS
 LENGTH = math.pi / 2 * BEND
-STRAIGHT = 20e-3                # before and after
+STRAIGHT = 20                   # before and after, mm
 
 
-def dictionary(core, ring, *along):
-    stations = [-STRAIGHT, 0.0, LENGTH, LENGTH + STRAIGHT]
+def dictionary(core, ring, before, round, after, straight=STRAIGHT):
+    along = (before, round, after)
+    stations = [-1e-3 * straight, 0.0, LENGTH, LENGTH + 1e-3 * STRAIGHT]
     c, h = RADIUS / math.sqrt(2), 0.44 * RADIUS
     section = [(0, -RADIUS), (c, -c), (c, c), (0, RADIUS), (0, -h), (h, -h), (h, h), (0, h)]
     vertices = "\n".join(f"    ({x:.12g} {y:.12g} {z:.12g})" for z in stations for x, y in section)

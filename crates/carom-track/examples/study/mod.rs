@@ -49,6 +49,17 @@ impl CaseFile {
         self
     }
 
+    /// Takes a dotted key out.
+    pub fn without(mut self, key: &str) -> Self {
+        let mut keys: Vec<&str> = key.split('.').collect();
+        let last = keys.pop().unwrap_or_default();
+        let inner = keys.iter().try_fold(&mut self.table, |t, k| t.get_mut(*k).and_then(toml::Value::as_table_mut));
+        if let Some(table) = inner {
+            table.remove(last);
+        }
+        self
+    }
+
     /// Changes a key of every entry of a list of tables: `wall`, `injection`.
     pub fn set_each(mut self, list: &str, key: &str, value: impl Into<toml::Value>) -> Self {
         let value = value.into();
