@@ -9,7 +9,7 @@ use carom_report::plot::{Dash, Marker};
 use carom_report::{Axis, Color, Column, Plot, Series, Table};
 use carom_track::force::Sphere;
 use carom_track::record::Fate;
-use study::{CaseFile, Paths, Result, in_parallel, logspace, meters, track, wilson};
+use study::{CaseFile, Paths, Result, Track, in_parallel, logspace, meters, track, wilson};
 
 const MEASURED: &str = include_str!("bend-measured.csv");
 const RADIUS: f64 = 5e-3;
@@ -75,9 +75,9 @@ fn main() -> Result<()> {
         case = case.set("flow.case", folder);
     }
     let stokes = logspace(0.06, 1.4, POINTS);
-    let found = in_parallel(CURVES.len() * POINTS, |job| {
-        let (curve, stokes) = (&CURVES[job / POINTS], stokes[job % POINTS]);
-        deposited(&(curve.change)(case.clone()), curve.density, stokes).map_err(|e| e.to_string())
+    let found = in_parallel(CURVES.len(), |curve| {
+        let curve = &CURVES[curve];
+        deposited(&(curve.change)(case.clone()), curve.density, &stokes).map_err(|e| e.to_string())
     })?;
     let mut columns = vec![Column::float("stokes", "", stokes.clone())];
     let mut plot = Plot::new(
@@ -85,7 +85,7 @@ fn main() -> Result<()> {
         Axis::new("Stokes number", "").log().range(0.06, 1.4),
         Axis::scaled("deposited", "%", 100.0).range(0.0, 1.03),
     );
-    for (curve, shares) in CURVES.iter().zip(found.chunks(POINTS)) {
+    for (curve, shares) in CURVES.iter().zip(&found) {
         let line = Series::line(curve.label, stokes.clone(), shares.iter().copied());
         plot = plot.with(line.color(curve.look.0).dash(curve.look.1));
         columns.push(Column::float(curve.label.replace(", ", "_").replace(' ', "_"), "", shares.iter().copied()));
@@ -101,8 +101,7 @@ fn main() -> Result<()> {
     }
     let (x, y) = curve("pui-1987");
     println!("stokes, measured, as the flow carries them there, 95 %");
-    for (stokes, measured) in x.iter().zip(&y) {
-        let share = deposited(&case, 1000.0, *stokes)?;
+    for ((stokes, measured), share) in x.iter().zip(&y).zip(deposited(&case, 1000.0, &x)?) {
         let (low, high) = wilson(share, count as f64);
         println!("{stokes:.2} {measured:.3} {share:.3} {low:.3} {high:.3}");
     }
@@ -120,26 +119,36 @@ fn curve(source: &str) -> (Vec<f64>, Vec<f64>) {
     rows.filter_map(|(x, y)| Some((x.parse::<f64>().ok()?, y.parse::<f64>().ok()?))).unzip()
 }
 
-/// The share of those that reach the bend which stays in it.
-fn deposited(case: &CaseFile, density: f64, stokes: f64) -> Result<f64> {
-    let case = case.clone().set_each("injection", "density", density);
+/// The share that stays in the bend of those that reach it, for each Stokes number.
+fn deposited(case: &CaseFile, density: f64, stokes: &[f64]) -> Result<Vec<f64>> {
+    let mut case = case.clone().set_each("injection", "density", density);
     let dynamics = case.case()?.dynamics;
-    let (mut low, mut high) = (1e-6, 1e-4);
-    while high / low > 1.0 + 1e-6 {
-        let diameter = f64::sqrt(low * high);
-        let time = dynamics.relaxation_time(&Sphere { diameter, density });
-        if time * SPEED / RADIUS < stokes { low = diameter } else { high = diameter }
-    }
-    let case = case.set_each("injection", "diameter", meters(low)).case()?;
+    let drops = case.list("injection").into_iter().next().ok_or("no injection")?.clone();
+    let sizes = stokes.iter().map(|stokes| {
+        let (mut low, mut high) = (1e-6, 1e-4);
+        while high / low > 1.0 + 1e-6 {
+            let diameter = f64::sqrt(low * high);
+            let time = dynamics.relaxation_time(&Sphere { diameter, density });
+            if time * SPEED / RADIUS < *stokes { low = diameter } else { high = diameter }
+        }
+        let mut drops = drops.clone();
+        drops.remove("name");
+        drops.insert("diameter".into(), meters(low).into());
+        toml::Value::Table(drops)
+    });
+    let case = case.clone().set("injection", sizes.collect::<Vec<_>>()).case()?;
     let wall = |name: &str| case.domain.walls().iter().position(|w| w.name == name);
     let (before, bend) = (wall("before"), wall("bend"));
     let tracks = track(&case, Paths::Dropped);
-    let kept = |at: Option<usize>| {
-        let held = tracks.iter().filter(|t| !matches!(t.end.fate, Fate::Escaped | Fate::Overlapping));
-        held.filter(|t| t.end.wall.map(|w| w as usize) == at).count() as f64
+    let share = |tracks: &[Track]| {
+        let kept = |at: Option<usize>| {
+            let held = tracks.iter().filter(|t| !matches!(t.end.fate, Fate::Escaped | Fate::Overlapping));
+            held.filter(|t| t.end.wall == at).count() as f64
+        };
+        let started = tracks.iter().filter(|t| t.end.fate != Fate::Overlapping).count() as f64;
+        kept(bend) / (started - kept(before))
     };
-    let started = tracks.iter().filter(|t| t.end.fate != Fate::Overlapping).count() as f64;
-    Ok(kept(bend) / (started - kept(before)))
+    Ok(tracks.chunks(tracks.len() / stokes.len()).map(share).collect())
 }
 
 /// Where a curve first passes one half.
