@@ -54,6 +54,11 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     if args.json { output::print_json(&answer) } else { output::print(&tell(&answer, &law, &motion, &met)) }
 }
 
+/// The answer in a few lines, for other fronts.
+pub fn printed(law: &Law, motion: &Motion, met: &Met) -> Result<String, Failure> {
+    Ok(tell(&Answer::new(law, motion, met)?, law, motion, met))
+}
+
 /// The object that `--json` prints; its keys are a contract.
 #[derive(serde::Serialize)]
 struct Answer {

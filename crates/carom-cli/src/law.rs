@@ -263,6 +263,11 @@ fn from_file(path: &Path, name: &str) -> Result<(LawSpec, Option<Source>), Failu
 }
 
 impl Law {
+    /// A law that was named and compiled elsewhere.
+    pub fn of(spec: LawSpec, wall: WallLaw) -> Self {
+        Self { wall, has_friction: spec.friction.is_some(), spec, unnamed: false, eap: None }
+    }
+
     /// The law in a few words: `copper on aluminium, ea`.
     pub fn description(&self) -> String {
         self.materials().into_iter().chain([self.normal_name()]).collect::<Vec<_>>().join(", ")

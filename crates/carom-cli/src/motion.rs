@@ -88,12 +88,7 @@ impl MotionArgs {
 impl Motion {
     /// Normal and tangential speed, m/s.
     pub fn components(&self) -> (f64, f64) {
-        // π/2 is no double: head-on has no tangential speed at all
-        if self.angle == 90.0 {
-            return (self.speed, 0.0);
-        }
-        let (sin, cos) = self.angle.to_radians().sin_cos();
-        (self.speed * sin, self.speed * cos)
+        carom::impact::components(self.speed, self.angle)
     }
 
     /// The impact, on a wall at y = 0 with the sphere above it moving along +x.

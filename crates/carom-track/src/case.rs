@@ -10,6 +10,7 @@ mod files;
 mod flow;
 mod fluid;
 mod injection;
+mod particles;
 mod removal;
 mod scale;
 mod text;
@@ -17,6 +18,7 @@ mod triangles;
 mod wall;
 mod whole;
 
+pub use files::Sources;
 pub(crate) use files::{Fingerprint, LARGEST};
 pub use injection::Injected;
 
@@ -87,9 +89,17 @@ impl Case {
     /// # Errors
     /// What is wrong, with its place in `text` ([`CaseError::located`] puts the line in front).
     pub fn from_toml(text: &str, name: &Path, library: &Library) -> Result<Self, CaseError> {
+        Self::from_toml_with(text, name, library, &Sources::default())
+    }
+
+    /// As [`Case::from_toml`], with files held in memory: a file that the case names is looked for there first.
+    ///
+    /// # Errors
+    /// As [`Case::from_toml`].
+    pub fn from_toml_with(text: &str, name: &Path, library: &Library, sources: &Sources) -> Result<Self, CaseError> {
         let mut read: CaseText = toml::from_str(text)?;
         let laws = carom::spec::parse_laws(text)?;
-        let files = Files::new(name, text);
+        let files = Files::new(name, text, sources);
         let seed = read.seed.map_or(1, |s| s.0);
         let (fluid, gas) = fluid::fluid(read.fluid.as_ref())?;
         let gradient = read.fluid.as_ref().and_then(|f| f.value.temperature_gradient.as_ref());
@@ -107,7 +117,9 @@ impl Case {
             .injection
             .iter()
             .enumerate()
-            .map(|(i, at)| injection::read(at, i, seed, (&fluid, dynamics.forces.slip), &flow, &openings, library))
+            .map(|(i, at)| {
+                injection::read(at, i, seed, (&fluid, dynamics.forces.slip), &flow, &openings, library, &files)
+            })
             .collect::<Result<Vec<_>, _>>()?;
         if injections.is_empty() {
             return Err(LawError::new("the case injects nothing").help("add an [[injection]]"));

@@ -148,19 +148,7 @@ impl Deposition {
     /// What the writer says.
     pub fn to_csv(&self, bins: &Bins, walls: &[String]) -> Result<String, csv::Error> {
         let mut writer = csv::Writer::from_writer(Vec::new());
-        writer.write_record([
-            "wall",
-            "region",
-            "diameter_from",
-            "diameter_to",
-            "injected",
-            "kept",
-            "kept_mass",
-            "fraction",
-            "fraction_low",
-            "fraction_high",
-            "mass_fraction",
-        ])?;
+        writer.write_record(schema().iter().map(|f| f.name.as_str()))?;
         let none = Amount::default();
         for (w, wall) in walls.iter().enumerate() {
             for r in 0..=bins.regions.len() {
@@ -194,6 +182,24 @@ impl Deposition {
         // a writer of texts and numbers makes UTF-8
         Ok(String::from_utf8_lossy(&bytes).into_owned())
     }
+}
+
+/// The columns of `deposition.csv`.
+pub(crate) fn schema() -> carom_table::Schema {
+    use carom_table::Field;
+    vec![
+        Field::text("wall"),
+        Field::text("region"),
+        Field::float("diameter_from", "m"),
+        Field::float("diameter_to", "m"),
+        Field::count("injected"),
+        Field::count("kept"),
+        Field::float("kept_mass", "kg"),
+        Field::float("fraction", ""),
+        Field::float("fraction_low", ""),
+        Field::float("fraction_high", ""),
+        Field::float("mass_fraction", ""),
+    ]
 }
 
 #[cfg(test)]

@@ -95,6 +95,11 @@ pub trait Progress: Sync {
 
     /// Something to know about the run.
     fn note(&self, _: &str) {}
+
+    /// Whether to stop here; asked after [`Progress::particles`]. What is on disk can be resumed.
+    fn stops(&self) -> bool {
+        false
+    }
 }
 
 /// Listens to nothing.
@@ -151,6 +156,9 @@ pub enum RunError {
         /// Which.
         path: PathBuf,
     },
+    /// [`Progress::stops`] said so.
+    #[error("stopped before its end; it can be resumed")]
+    Stopped,
     /// The program failed: a fault in it.
     #[error("a fault in carom, at particles {} to {}: {message}", .particles.start, .particles.end.saturating_sub(1))]
     Panic {
@@ -262,7 +270,7 @@ fn run_on(
                 None => summary.merge(&done.summary),
             }
             progress.particles(numbers.end - particles.start, all);
-            Ok(())
+            if progress.stops() && numbers.end < particles.end { Err(RunError::Stopped) } else { Ok(()) }
         },
     )?;
     if let Some(output) = output {

@@ -170,6 +170,15 @@ pub(crate) fn push_deposit(columns: &mut Columns, i: &ImpactRecord) {
     row.floats([i.diameter, i.normal_speed_in, i.tangential_speed_in, i.weight]).end();
 }
 
+/// The typed columns of a run's table, by the first part of its file's name: `impacts`, `fates`, `trajectories`, `deposition`.
+#[must_use]
+pub fn schema(stem: &str) -> Option<Schema> {
+    if stem == "deposition" {
+        return Some(crate::deposition::schema());
+    }
+    LAYOUTS[..DEPOSIT].iter().find(|layout| layout.stem == stem).map(Layout::schema)
+}
+
 /// Indices into [`LAYOUTS`].
 pub(crate) const IMPACTS: usize = 0;
 pub(crate) const FATES: usize = 1;

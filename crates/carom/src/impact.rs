@@ -1,7 +1,9 @@
 //! What goes into an impact and what comes out.
 
+use crate::math::{BEST, Fma, sin_cos_on};
 use crate::tangential::Contact;
 use crate::validity::Validity;
+use core::f64::consts::PI;
 
 /// A vector in any right-handed frame, SI units.
 pub type Vec3 = [f64; 3];
@@ -30,6 +32,30 @@ impl Impact {
     pub fn new(diameter: f64, velocity: Vec3, normal: Vec3) -> Self {
         Self { diameter, density: None, velocity, spin: [0.0; 3], normal, wall_velocity: [0.0; 3], draws: [0.5; 4] }
     }
+}
+
+/// Normal and tangential speed, m/s, of a sphere that comes at a speed (m/s) and an angle (degrees from the surface; 90 is head-on and has
+/// no tangential speed at all).
+///
+/// ```
+/// let (normal, tangential) = carom::impact::components(2.0, 30.0);
+/// assert!((normal - 1.0).abs() < 1e-15 && (tangential - 3f64.sqrt()).abs() < 1e-15);
+/// assert_eq!(carom::impact::components(2.0, 90.0), (2.0, 0.0));
+/// ```
+#[inline]
+pub fn components(speed: f64, angle_deg: f64) -> (f64, f64) {
+    components_on(BEST, speed, angle_deg)
+}
+
+/// As [`components`].
+#[inline(always)]
+pub fn components_on<F: Fma>(f: F, speed: f64, angle_deg: f64) -> (f64, f64) {
+    // π/2 is no double
+    if angle_deg == 90.0 {
+        return (speed, 0.0);
+    }
+    let (sin, cos) = sin_cos_on(f, angle_deg * (PI / 180.0));
+    (speed * sin, speed * cos)
 }
 
 /// Sticks or bounces.

@@ -2,7 +2,19 @@
 
 use carom::material::{Material, PropertyKind};
 use std::cell::Cell;
+use std::collections::BTreeMap;
 use std::path::Path;
+
+/// Files that a case names and that are held in memory, by the name that the case gives them.
+#[derive(Clone, Debug, Default)]
+pub struct Sources(BTreeMap<String, Vec<u8>>);
+
+impl Sources {
+    /// These, by name.
+    pub fn new(files: BTreeMap<String, Vec<u8>>) -> Self {
+        Self(files)
+    }
+}
 
 /// FNV-1a: enough to tell an edited case from the one that was interrupted.
 #[derive(Clone, Copy, Debug)]
@@ -37,19 +49,22 @@ pub(crate) const LARGEST: u64 = 8 << 30;
 /// Reads the files that a case names, beside it, and takes them into its fingerprint.
 pub(super) struct Files<'a> {
     folder: &'a Path,
+    sources: &'a Sources,
     fingerprint: Cell<Fingerprint>,
 }
 
 impl<'a> Files<'a> {
     /// Of a case with that text.
-    pub fn new(case: &'a Path, text: &str) -> Self {
-        Self { folder: case.parent().unwrap_or(Path::new("")), fingerprint: Cell::new(Fingerprint::of(text)) }
+    pub fn new(case: &'a Path, text: &str, sources: &'a Sources) -> Self {
+        Self { folder: case.parent().unwrap_or(Path::new("")), sources, fingerprint: Cell::new(Fingerprint::of(text)) }
     }
 
     /// What is in a file; not in what may never end, such as a device or a pipe.
     pub fn read(&self, name: &str) -> std::io::Result<Vec<u8>> {
-        let path = self.folder.join(name);
-        let bytes = carom_table::file::read_regular(&path, LARGEST)?;
+        let bytes = match self.sources.0.get(name) {
+            Some(bytes) => bytes.clone(),
+            None => carom_table::file::read_regular(&self.folder.join(name), LARGEST)?,
+        };
         self.fingerprint.set(self.fingerprint.get().with(&bytes));
         Ok(bytes)
     }

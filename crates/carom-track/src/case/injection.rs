@@ -1,7 +1,8 @@
 //! `[[injection]]`.
 
 use super::cells::Openings;
-use super::check::{positive, unknown, word, wrong};
+use super::check::{needed, positive, unknown, word, wrong};
+use super::files::Files;
 use super::text::{InjectionText, PatchText, PlaceText, PlacesText, Si, SizeText, SizesText, VelocityText};
 use crate::domain::Wall;
 use crate::flow::{Flow, Fluid};
@@ -30,6 +31,7 @@ pub struct Injected {
 }
 
 /// Reads one injection.
+#[expect(clippy::too_many_arguments, reason = "all that a case's text does not say itself")]
 pub(super) fn read(
     at: &At<InjectionText>,
     index: usize,
@@ -38,6 +40,7 @@ pub(super) fn read(
     flow: &Flow,
     openings: &Openings,
     library: &Library,
+    files: &Files,
 ) -> Result<Injected, LawError> {
     let text = &at.value;
     let name = text.name.as_ref().map_or_else(|| format!("injection {}", index + 1), |n| n.value.clone());
@@ -51,19 +54,22 @@ pub(super) fn read(
             &[("geometric", Diameter::Geometric), ("aerodynamic", Diameter::Aerodynamic(slip))],
         )?,
     };
-    let (sizes, mut largest) = sizes(&text.diameter)?;
+    let (source, place) = start(at, openings, files)?;
+    let (sizes, mut largest) = diameters(at, &source)?;
     if let Diameter::Aerodynamic(slip) = diameter {
         largest = geometric_diameter(largest, density, slip, fluid.mean_free_path);
     }
     let start = text.start.as_ref().map_or(0.0, |t| t.value.0);
     let ways = [("uniform", false), ("flux", true)];
     let by_flux = text.distribution.as_ref().map_or(Ok(false), |d| word(d, "distribution", &ways))?;
+    let amount = amount(at, &source)?;
+    let listed_velocities = has_velocities(&source);
     let plan = Plan {
-        source: place(&text.position, openings)?,
+        source,
         velocity: match text.velocity.as_ref().map(|v| &v.value) {
             Some(VelocityText::Given(v)) => Start::Velocity(*v),
             Some(VelocityText::Fluid) => Start::Fluid,
-            None if by_flux => Start::Fluid,
+            None if by_flux || listed_velocities => Start::Fluid,
             None => return Err(wrong(at, "an injection needs velocity").help("a vector, or \"fluid\"")),
         },
         spin: text.spin.as_ref().map_or([0.0; 3], |s| s.value.si()),
@@ -71,24 +77,18 @@ pub(super) fn read(
         sizes,
         diameter,
         window: Window { start, stop: text.stop.as_ref().map_or(start, |t| t.value.0) },
-        amount: amount(at)?,
+        amount,
     };
     if let Some(start) = text.start.as_ref().filter(|s| s.value.0 < 0.0) {
         return Err(wrong(start, format!("start is {} s", start.value.0)).help("a run begins at 0 s"));
     }
     let injection = Injection::new(seed, number, plan, fluid).map_err(|e| blame(at, &e).at(at.span.clone()))?;
     let injection = if by_flux {
-        injection.by_flux(flow).map_err(|e| LawError::new(e.to_string()).at(text.position.span.clone()))?
+        injection.by_flux(flow).map_err(|e| LawError::new(e.to_string()).at(place.clone()))?
     } else {
         injection
     };
-    Ok(Injected {
-        name,
-        material: text.material.as_ref().map(|m| m.value.clone()),
-        injection,
-        largest,
-        place: text.position.span.clone(),
-    })
+    Ok(Injected { name, material: text.material.as_ref().map(|m| m.value.clone()), injection, largest, place })
 }
 
 /// What to say where part of an inflow's area lets fluid out.
@@ -107,7 +107,9 @@ fn blame(at: &At<InjectionText>, error: &InjectionError) -> LawError {
     let (InjectionError::Value { name, .. } | InjectionError::Shape { name, .. }) = error;
     let text = &at.value;
     let about = |words: &[&str]| words.iter().any(|w| name.contains(w));
-    let span = if about(&["start time"]) {
+    let span = if about(&["listed"]) {
+        text.particles.as_ref().and_then(|a| a.span.clone())
+    } else if about(&["start time"]) {
         text.start.as_ref().and_then(|a| a.span.clone())
     } else if about(&["stop time"]) {
         text.stop.as_ref().or(text.start.as_ref()).and_then(|a| a.span.clone())
@@ -119,7 +121,7 @@ fn blame(at: &At<InjectionText>, error: &InjectionError) -> LawError {
         ];
         amount.into_iter().flatten().next().cloned().flatten()
     } else if about(&["point", "corner", "box", "disc", "patch", "surface"]) {
-        text.position.span.clone()
+        text.position.as_ref().and_then(|a| a.span.clone())
     } else if about(&["velocity"]) {
         text.velocity.as_ref().and_then(|a| a.span.clone())
     } else if about(&["spin"]) {
@@ -127,7 +129,7 @@ fn blame(at: &At<InjectionText>, error: &InjectionError) -> LawError {
     } else if about(&["density"]) {
         text.density.as_ref().and_then(|a| a.span.clone())
     } else {
-        text.diameter.span.clone()
+        text.diameter.as_ref().and_then(|a| a.span.clone())
     };
     LawError::new(error.to_string()).at(span)
 }
@@ -146,8 +148,60 @@ fn density(at: &At<InjectionText>, library: &Library) -> Result<f64, LawError> {
         .ok_or_else(|| wrong(at, format!("{} has no density in the library", material.name)).help("give density"))
 }
 
-fn amount(at: &At<InjectionText>) -> Result<Amount, LawError> {
+/// Where the spheres start, and where the case says so.
+fn start(
+    at: &At<InjectionText>,
+    openings: &Openings,
+    files: &Files,
+) -> Result<(Source, Option<Range<usize>>), LawError> {
     let text = &at.value;
+    match (&text.particles, &text.position) {
+        (Some(file), None) => Ok((super::particles::read(file, files)?, file.span.clone())),
+        (Some(file), Some(_)) => {
+            Err(wrong(file, "both position and particles").help("particles bring their positions along: keep one"))
+        }
+        (None, _) => {
+            let position = needed(&text.position, at, "position", "an injection")?;
+            Ok((place(position, openings)?, position.span.clone()))
+        }
+    }
+}
+
+/// The diameters, and the largest to reckon with: the list's own, where every particle of one has its own.
+fn diameters(at: &At<InjectionText>, source: &Source) -> Result<(Sizes, f64), LawError> {
+    let own = match source {
+        Source::Listed(list) => list.iter().try_fold(0.0, |most: f64, one| Some(most.max(one.diameter?))),
+        _ => None,
+    };
+    match (own, &at.value.diameter) {
+        (Some(largest), None) => Ok((Sizes::Mono(largest), largest)),
+        (Some(_), Some(diameter)) => Err(wrong(diameter, "the particles bring their diameters along")
+            .help("leave it out, or leave out their column")),
+        (_, text) => sizes(needed(text, at, "diameter", "an injection")?),
+    }
+}
+
+/// Whether every sphere brings its velocity along.
+fn has_velocities(source: &Source) -> bool {
+    matches!(source, Source::Listed(list) if list.iter().all(|one| one.velocity.is_some()))
+}
+
+fn amount(at: &At<InjectionText>, source: &Source) -> Result<Amount, LawError> {
+    let text = &at.value;
+    if let Source::Listed(list) = source {
+        let given = [
+            text.count.as_ref().map(|a| &a.span),
+            text.mass.as_ref().map(|a| &a.span),
+            text.mass_flow.as_ref().map(|a| &a.span),
+            text.parcels.as_ref().map(|a| &a.span),
+        ];
+        return match given.into_iter().flatten().next() {
+            None => Ok(Amount::Count(list.len() as u64)),
+            Some(span) => Err(LawError::new("listed particles are as many as there are")
+                .help("leave it out; a column weight says how many spheres each stands for")
+                .at(span.clone())),
+        };
+    }
     let parcels = || {
         text.parcels
             .as_ref()
@@ -263,6 +317,8 @@ pub(super) fn hull(source: &Source) -> Vec<[f64; 3]> {
         Source::Triangles(triangles) | Source::Opening { triangles, .. } => {
             triangles.iter().flatten().copied().collect()
         }
+        // of many, the first few: a start inside a wall is found when its turn comes
+        Source::Listed(list) => list.iter().take(1000).map(|one| one.position).collect(),
     }
 }
 

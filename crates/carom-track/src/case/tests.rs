@@ -8,6 +8,7 @@ mod fluid;
 mod flux;
 mod forces;
 mod gas;
+mod particles;
 mod stl;
 
 const GOOD: &str = r#"

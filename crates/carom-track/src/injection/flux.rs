@@ -66,7 +66,7 @@ impl Inflow {
     pub fn new(source: &Source, flow: &Flow) -> Result<Self, InjectionError> {
         let mut disc = None;
         let (tiles, turns) = match source {
-            Source::Point(_) => {
+            Source::Point(_) | Source::Listed(_) => {
                 return Err(InjectionError::Shape {
                     name: "injection by flux",
                     what: "needs an area, and a point has none: give a disc, a patch or a box",

@@ -29,7 +29,7 @@ mod source;
 
 pub use aerodynamic::geometric_diameter;
 pub use size::{By, Sizes};
-pub use source::Source;
+pub use source::{Listed, Source};
 
 use crate::flow::{Flow, Fluid};
 use crate::force::{Slip, Sphere};
@@ -273,6 +273,17 @@ impl Injection {
             Start::Velocity(v) => v,
             Start::Fluid => fluid_velocity(time, position),
         };
+        if let Source::Listed(list) = &self.plan.source
+            && let Some(one) = usize::try_from(i).ok().and_then(|i| list.get(i))
+        {
+            let (position, time) = (one.position, one.time.unwrap_or(start));
+            let velocity = one.velocity.unwrap_or_else(|| match self.plan.velocity {
+                Start::Velocity(v) => v,
+                Start::Fluid => fluid_velocity(time, position),
+            });
+            let diameter = one.diameter.unwrap_or(diameter);
+            return Injected { position, velocity, spin: self.plan.spin, diameter, density, time, weight: one.weight };
+        }
         let weight = self.parcel_mass.map_or(1.0, |m| m / Sphere { diameter, density }.mass());
         Injected { position, velocity, spin: self.plan.spin, diameter, density, time, weight }
     }

@@ -3,6 +3,7 @@
 use super::{InjectionError, finite3, positive};
 use crate::random::Stream;
 use crate::vector::{Vec3, add, cross, frame, norm, scale, sub, unit};
+use std::sync::Arc;
 
 /// Where spheres start.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,6 +42,8 @@ pub enum Source {
         /// How far inside centres start, radii.
         inset: f64,
     },
+    /// One sphere after the other, each with its own start.
+    Listed(Arc<[Listed]>),
 }
 
 impl Source {
@@ -48,6 +51,21 @@ impl Source {
     pub fn is_opening(&self) -> bool {
         matches!(self, Self::Opening { .. })
     }
+}
+
+/// A sphere's own start; what is `None` is the plan's.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Listed {
+    /// m.
+    pub position: [f64; 3],
+    /// m/s.
+    pub velocity: Option<[f64; 3]>,
+    /// m.
+    pub diameter: Option<f64>,
+    /// How many spheres it stands for.
+    pub weight: f64,
+    /// s.
+    pub time: Option<f64>,
 }
 
 /// A checked source.
@@ -107,6 +125,7 @@ impl Place {
                 }
             }
             Source::Triangles(triangles) | Source::Opening { triangles, .. } => surface(triangles),
+            Source::Listed(list) => listed(list),
         }
     }
 
@@ -175,6 +194,20 @@ fn surface(triangles: &[[Vec3; 3]]) -> Result<Place, InjectionError> {
     }
     out.iter_mut().for_each(|t| t.0 /= sum);
     Ok(Place::Triangles(out))
+}
+
+/// Checks every start; each is asked for by its number, not drawn.
+fn listed(list: &[Listed]) -> Result<Place, InjectionError> {
+    for one in list {
+        finite3("position of a listed particle", one.position)?;
+        one.velocity.map_or(Ok(()), |v| finite3("velocity of a listed particle", v))?;
+        one.diameter.map_or(Ok(()), |d| positive("diameter of a listed particle", d))?;
+        positive("weight of a listed particle", one.weight)?;
+        if let Some(time) = one.time.filter(|t| !(*t >= 0.0 && t.is_finite())) {
+            return Err(InjectionError::value("time of a listed particle", time, "finite and not negative"));
+        }
+    }
+    Ok(Place::Point([0.0; 3]))
 }
 
 #[cfg(test)]

@@ -381,3 +381,29 @@ fn a_box_from_stl_is_the_box() {
 mod folder;
 mod power;
 mod results;
+
+/// Stops when so many particles have ended.
+struct StopsAt(u64, AtomicU64);
+
+impl Progress for StopsAt {
+    fn particles(&self, done: u64, _: u64) {
+        self.1.store(done, Ordering::Relaxed);
+    }
+    fn stops(&self) -> bool {
+        self.1.load(Ordering::Relaxed) >= self.0
+    }
+}
+
+#[test]
+fn a_run_that_was_stopped_goes_on() {
+    let folder = tempfile::tempdir().unwrap();
+    let (whole, stopped) = (folder.path().join("whole"), folder.path().join("stopped"));
+    let case = case();
+    run(&case, &options(&whole, 2), &Silent).unwrap();
+    let stops = StopsAt(1000, AtomicU64::new(0));
+    let error = run(&case, &options(&stopped, 2), &stops).unwrap_err();
+    assert!(matches!(error, RunError::Stopped), "{error}");
+    assert!(stops.1.load(Ordering::Relaxed) < 5000, "it ran on");
+    run(&case, &RunOptions { resume: true, ..options(&stopped, 2) }, &Silent).unwrap();
+    assert_eq!(files(&whole), files(&stopped));
+}

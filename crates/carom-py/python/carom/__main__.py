@@ -1,0 +1,5 @@
+"""``python -m carom``: the command."""
+
+from carom._command import main
+
+main()

@@ -1,0 +1,536 @@
+//! A wall law.
+
+use crate::columns::shape;
+use crate::materials::{Materials, file_error, html};
+use crate::numbers::{Input, What, numpy};
+use crate::outcome::{More, Outcome, Outcomes, place};
+use crate::rows::Rows;
+use crate::{figures, keys, words};
+use carom::spec::{Key, LawSpec, NormalSpec, parse_named_law, parse_only_law};
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyString, PyType};
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// A law as written and as it answers.
+pub struct Law {
+    pub spec: LawSpec,
+    pub wall: carom::WallLaw,
+    pub materials: Materials,
+}
+
+impl Law {
+    /// Compiles it.
+    pub fn new(spec: LawSpec, materials: Materials) -> PyResult<Self> {
+        let wall = spec.compile(&materials.library).map_err(|e| words::of_keys(&e))?;
+        Ok(Self { spec, wall, materials })
+    }
+
+    /// `copper on glass, ea`
+    pub fn described(&self) -> String {
+        let normal = match self.spec.normal.as_ref().map(|n| &n.value) {
+            Some(NormalSpec::Named(kind)) => kind.name().to_owned(),
+            Some(NormalSpec::Losses(losses)) => losses.iter().map(|l| l.name()).collect::<Vec<_>>().join(" + "),
+            None => String::new(),
+        };
+        match self.wall.pair() {
+            Some(pair) => format!("{} on {}, {normal}", pair.sphere().name, pair.surface().name),
+            None => normal,
+        }
+    }
+
+    fn toml(&self, name: &str) -> PyResult<String> {
+        self.spec.to_toml(name).map_err(|e| words::of_keys(&e))
+    }
+}
+
+/// What a wall does to spheres: two materials, a normal and a tangential law, roughness.
+///
+/// Parameters
+/// ----------
+/// materials : Materials, optional
+///     The library that names are looked up in; the built-in one by default.
+/// **keys
+///     The keys of a law file (``carom.law_keys()`` lists them, docs/wall-law.md explains them): ``sphere``, ``surface``, ``normal``,
+///     ``friction``, ``roughness_factor``, ... Quantities are SI numbers, texts with units (``"1.3 s/m"``) or pint quantities; a
+///     material is a name, a :class:`Material` or a dict of properties; a curve is a dict, a list of losses a list.
+///
+/// Raises
+/// ------
+/// ValueError, TypeError
+///     What is missing, impossible, idle or contradictory, and what would be right.
+///
+/// Notes
+/// -----
+/// A law never changes and may be used by many threads. It pickles, compares by its keys, and ``str(law)`` is its TOML.
+///
+/// Examples
+/// --------
+/// >>> import carom
+/// >>> law = carom.WallLaw(sphere="copper", surface="glass", normal="ea", friction=0.2, roughness_factor=0.8)
+/// >>> round(law.capture_velocity("90 um"), 6)
+/// 0.091551
+#[pyclass(frozen, module = "carom")]
+#[derive(Clone)]
+pub struct WallLaw(pub Arc<Law>);
+
+impl WallLaw {
+    fn read(text: &str, name: Option<&str>, materials: Materials, file: &str) -> PyResult<Self> {
+        let read = || {
+            let spec = name.map_or_else(|| parse_only_law(text), |name| parse_named_law(text, name))?;
+            let wall = spec.compile(&materials.library)?;
+            Ok((spec, wall))
+        };
+        let (spec, wall) = read().map_err(|e| words::of_text(&e, file, text))?;
+        Ok(Self(Arc::new(Law { spec, wall, materials })))
+    }
+}
+
+#[pymethods]
+impl WallLaw {
+    #[new]
+    #[pyo3(signature = (*, materials=None, **keys))]
+    fn new(materials: Option<&Bound<'_, Materials>>, keys: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+        Ok(Self(Arc::new(Law::new(keys::spec(keys)?, Materials::or_builtin(materials))?)))
+    }
+
+    /// A law from a text, as a law file or a case file holds it.
+    ///
+    /// Parameters
+    /// ----------
+    /// text : str
+    ///     TOML: one law's keys, or ``[law.NAME]`` tables.
+    /// name : str, optional
+    ///     Which law; needed where there is more than one.
+    /// materials : Materials, optional
+    ///     The library.
+    ///
+    /// Returns
+    /// -------
+    /// WallLaw
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     What is wrong, with its line.
+    #[classmethod]
+    #[pyo3(signature = (text, name=None, *, materials=None))]
+    fn from_toml(
+        _: &Bound<'_, PyType>,
+        text: &str,
+        name: Option<&str>,
+        materials: Option<&Bound<'_, Materials>>,
+    ) -> PyResult<Self> {
+        Self::read(text, name, Materials::or_builtin(materials), "law")
+    }
+
+    /// A law from a file; see :meth:`from_toml`.
+    ///
+    /// Parameters
+    /// ----------
+    /// path : path
+    ///     A law file or a case file.
+    /// name : str, optional
+    ///     Which law.
+    /// materials : Materials, optional
+    ///     The library.
+    ///
+    /// Returns
+    /// -------
+    /// WallLaw
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     What is wrong, with its line.
+    /// OSError
+    ///     A file that cannot be read.
+    #[classmethod]
+    #[pyo3(signature = (path, name=None, *, materials=None))]
+    fn from_file(
+        _: &Bound<'_, PyType>,
+        path: PathBuf,
+        name: Option<&str>,
+        materials: Option<&Bound<'_, Materials>>,
+    ) -> PyResult<Self> {
+        let text = std::fs::read_to_string(&path).map_err(|e| file_error(&e, &path))?;
+        Self::read(&text, name, Materials::or_builtin(materials), &path.display().to_string())
+    }
+
+    /// The law as TOML with one table, ``[law.NAME]``; bare numbers are SI.
+    ///
+    /// Parameters
+    /// ----------
+    /// name : str
+    ///     The table's name.
+    ///
+    /// Returns
+    /// -------
+    /// str
+    #[pyo3(signature = (name="law"))]
+    fn to_toml(&self, name: &str) -> PyResult<String> {
+        self.0.toml(name)
+    }
+
+    /// The law's keys as plain values, SI units.
+    ///
+    /// Returns
+    /// -------
+    /// dict
+    fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let text = serde_json::to_string(&self.0.spec).map_err(|e| PyValueError::new_err(e.to_string()))?;
+        py.import("json")?.call_method1("loads", (text,))
+    }
+
+    /// The law with other keys.
+    ///
+    /// Parameters
+    /// ----------
+    /// **keys
+    ///     As in :class:`WallLaw`; ``None`` leaves a key out. A key takes the place of what excludes it.
+    ///
+    /// Returns
+    /// -------
+    /// WallLaw
+    #[pyo3(signature = (**keys))]
+    fn replace(&self, keys: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+        let mut spec = self.0.spec.clone();
+        for (name, value) in keys.into_iter().flatten() {
+            let key = keys::key(name.cast::<PyString>()?.to_str()?)?;
+            if value.is_none() {
+                spec.remove(key);
+            } else {
+                spec.make_room(key);
+                keys::set(&mut spec, key, &value)?;
+            }
+        }
+        Ok(Self(Arc::new(Law::new(spec, self.0.materials.clone())?)))
+    }
+
+    /// Density of the law's own sphere, kg/m3.
+    #[getter]
+    fn density(&self) -> f64 {
+        self.0.wall.density()
+    }
+    /// The roughness factor C_R in force.
+    #[getter]
+    fn roughness_factor(&self) -> f64 {
+        self.0.wall.roughness_factor()
+    }
+    /// Whether facets are drawn, so that impacts depend on ``draws``.
+    #[getter]
+    fn scatters(&self) -> bool {
+        self.0.wall.scatter().is_some()
+    }
+    /// The library its names were looked up in.
+    #[getter]
+    fn materials(&self) -> Materials {
+        self.0.materials.clone()
+    }
+
+    /// One impact, or one for each element of arrays.
+    ///
+    /// Parameters
+    /// ----------
+    /// diameter : number, str or array_like
+    ///     Diameter of the sphere, m.
+    /// speed, angle : number, str or array_like
+    ///     Speed, m/s, and angle of incidence, degrees from the surface (90, head-on, by default).
+    /// normal, tangential : number, str or array_like
+    ///     In their place: speeds normal to the wall and along it, m/s.
+    /// spin : number, str or array_like
+    ///     Spin, rad/s; positive rolls forward along the tangential velocity.
+    /// density : number, str or array_like, optional
+    ///     Density of the sphere, kg/m3, in place of the law's own.
+    /// draws : array_like, optional
+    ///     For walls that scatter: four uniform numbers in [0, 1) for each impact, along the last axis; all 1/2 by default.
+    /// errors : {"raise", "nan"}, optional
+    ///     What becomes of impacts that are none: an error, or NaN with a fate that says why. By default one impact raises, rows of arrays
+    ///     are NaN.
+    /// threads : int, optional
+    ///     For arrays; by default as many as the machine has where that is worth it. The bits do not depend on it.
+    ///
+    /// Returns
+    /// -------
+    /// Outcome or Outcomes
+    ///     :class:`Outcomes`, whose arrays have the broadcast shape, where any input is an array of one dimension or more.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError, TypeError
+    ///     A unit that does not fit, shapes that do not broadcast, an array that is not of numbers; with ``errors="raise"`` the first row that
+    ///     is no impact.
+    ///
+    /// Notes
+    /// -----
+    /// Contiguous arrays of float64 are read where they are, without a copy. Scalars and rows have the same bits, which are also those of
+    /// ``carom impact`` and of the Rust library.
+    ///
+    /// References
+    /// ----------
+    /// Kim, O. V. and Dunn, P. F., 2007. J. Aerosol Sci. 38, 532-549, doi:10.1016/j.jaerosci.2007.03.006, for ``ea`` and ``eap``; the others in
+    /// docs/which-law.md.
+    #[pyo3(signature = (diameter, speed=None, angle=None, spin=None, *, normal=None, tangential=None, density=None, draws=None,
+                        errors=None, threads=None))]
+    #[expect(clippy::too_many_arguments, reason = "the keyword arguments of the contract")]
+    fn impact<'py>(
+        &self,
+        py: Python<'py>,
+        diameter: &Bound<'py, PyAny>,
+        speed: Option<&Bound<'py, PyAny>>,
+        angle: Option<&Bound<'py, PyAny>>,
+        spin: Option<&Bound<'py, PyAny>>,
+        normal: Option<&Bound<'py, PyAny>>,
+        tangential: Option<&Bound<'py, PyAny>>,
+        density: Option<&Bound<'py, PyAny>>,
+        draws: Option<&Bound<'py, PyAny>>,
+        errors: Option<&str>,
+        threads: Option<usize>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let raises = match errors {
+            None => None,
+            Some("raise") => Some(true),
+            Some("nan") => Some(false),
+            Some(other) => return Err(PyValueError::new_err(format!("errors='{other}'; 'raise' or 'nan' is wanted"))),
+        };
+        let (motion, by_angle) = match (speed, normal) {
+            (Some(speed), None) if tangential.is_none() => {
+                ([Input::of(speed, "speed", What::Speed)?, Input::or(angle, 90.0, "angle", What::Angle)?], true)
+            }
+            (None, Some(normal)) if angle.is_none() => (
+                [Input::of(normal, "normal", What::Speed)?, Input::or(tangential, 0.0, "tangential", What::Speed)?],
+                false,
+            ),
+            _ => {
+                return Err(PyTypeError::new_err(
+                    "impact() takes speed= with or without angle=, or normal= with or without tangential=",
+                ));
+            }
+        };
+        let rows = Rows {
+            diameter: Input::of(diameter, "diameter", What::Diameter)?,
+            motion,
+            by_angle,
+            spin: Input::or(spin, 0.0, "spin", What::Spin)?,
+            density: density.map(|d| Input::of(d, "density", What::Density)).transpose()?,
+            draws: draws.map(four).transpose()?,
+        };
+        if let Some(one) = rows.one() {
+            let met = self.0.wall.impact(&one.impact());
+            if let (Err(error), true) = (&met, raises.unwrap_or(true)) {
+                return Err(words::of_impact(*error, ""));
+            }
+            return Ok(Bound::new(py, Outcome { law: Arc::clone(&self.0), one, met })?.into_any());
+        }
+        let shape = shape(py, &rows.inputs())?.unwrap_or_default();
+        let workers = crate::columns::threads(threads, shape.iter().product(), rows.cost(&self.0.wall));
+        let (answer, first) = rows.answer(py, &self.0.wall, &shape, workers)?;
+        if let (Some((row, error)), true) = (first, raises.unwrap_or(false)) {
+            return Err(words::of_impact(error, &place(&shape, row)));
+        }
+        let answer = answer.map(Bound::unbind);
+        let outcomes = Outcomes { law: Arc::clone(&self.0), rows, shape, threads, answer, more: More::none() };
+        Ok(Bound::new(py, outcomes)?.into_any())
+    }
+
+    /// The speed at and below which a sphere that comes head-on sticks, m/s.
+    ///
+    /// Parameters
+    /// ----------
+    /// diameter : number, str or array_like
+    ///     m.
+    /// density : number, str or array_like, optional
+    ///     kg/m3, in place of the law's own.
+    ///
+    /// Returns
+    /// -------
+    /// float or numpy.ndarray
+    ///     0 where nothing sticks, infinity where it never rebounds.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     A diameter or density out of range.
+    #[pyo3(signature = (diameter, *, density=None))]
+    fn capture_velocity<'py>(
+        &self,
+        py: Python<'py>,
+        diameter: &Bound<'py, PyAny>,
+        density: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        figures::window(py, &self.0.wall, diameter, density, |w| w.map_or(f64::INFINITY, |w| w.capture_velocity))
+    }
+
+    /// The speed above which losses other than adhesion leave nothing, m/s.
+    ///
+    /// Parameters
+    /// ----------
+    /// diameter : number, str or array_like
+    ///     m.
+    /// density : number, str or array_like, optional
+    ///     kg/m3, in place of the law's own.
+    ///
+    /// Returns
+    /// -------
+    /// float or numpy.ndarray
+    ///     Infinity where there is no such end.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     A diameter or density out of range.
+    #[pyo3(signature = (diameter, *, density=None))]
+    fn exhausted_velocity<'py>(
+        &self,
+        py: Python<'py>,
+        diameter: &Bound<'py, PyAny>,
+        density: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        figures::window(py, &self.0.wall, diameter, density, |w| w.map_or(0.0, |w| w.exhausted_velocity))
+    }
+
+    /// Yield velocity of the law's own plastic loss, m/s.
+    ///
+    /// Parameters
+    /// ----------
+    /// diameter : number, str or array_like
+    ///     m.
+    /// density : number, str or array_like, optional
+    ///     kg/m3, in place of the law's own.
+    ///
+    /// Returns
+    /// -------
+    /// float or numpy.ndarray
+    ///     NaN for a law without one.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     A diameter or density out of range.
+    #[pyo3(signature = (diameter, *, density=None))]
+    fn yield_velocity<'py>(
+        &self,
+        py: Python<'py>,
+        diameter: &Bound<'py, PyAny>,
+        density: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        figures::yielding(py, &self.0.wall, diameter, density)
+    }
+
+    /// Critical angle from the surface, degrees: below it a sphere without spin slides to the end of contact.
+    ///
+    /// Parameters
+    /// ----------
+    /// diameter : number, str or array_like
+    ///     m.
+    /// speed : number, str or array_like
+    ///     m/s.
+    /// density : number, str or array_like, optional
+    ///     kg/m3, in place of the law's own.
+    ///
+    /// Returns
+    /// -------
+    /// float or numpy.ndarray
+    ///     NaN for a law without friction.
+    #[pyo3(signature = (diameter, speed, *, density=None))]
+    fn critical_angle<'py>(
+        &self,
+        py: Python<'py>,
+        diameter: &Bound<'py, PyAny>,
+        speed: &Bound<'py, PyAny>,
+        density: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        figures::critical(py, &self.0.wall, diameter, speed, density)
+    }
+
+    /// Tabor's parameter with its regime, the adhesion parameter and the equilibrium spacing (m).
+    ///
+    /// Parameters
+    /// ----------
+    /// diameter : number or str
+    ///     m.
+    ///
+    /// Returns
+    /// -------
+    /// dict or None
+    ///     ``None`` without materials that have a work of adhesion.
+    fn adhesion_numbers<'py>(
+        &self,
+        py: Python<'py>,
+        diameter: &Bound<'py, PyAny>,
+    ) -> PyResult<Option<Bound<'py, PyDict>>> {
+        figures::adhesion(py, &self.0.wall, diameter)
+    }
+
+    /// The materials' contact constants, SI units; ``None`` for a law without materials.
+    #[getter]
+    fn pair<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
+        figures::pair(py, &self.0.wall)
+    }
+
+    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
+        let keys = self.to_dict(py)?.cast_into::<PyDict>()?;
+        let mut written = Vec::new();
+        for (name, value) in keys {
+            written.push(format!("{name}={}", value.repr()?));
+        }
+        Ok(format!("carom.WallLaw({})", written.join(", ")))
+    }
+
+    fn __str__(&self) -> PyResult<String> {
+        self.0.toml("law")
+    }
+
+    fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {
+        let keys = self.to_dict(py)?.cast_into::<PyDict>()?;
+        let mut rows = String::new();
+        for (name, value) in keys {
+            let name = name.str()?.to_string();
+            let info = Key::by_name(&name).map(Key::info);
+            let (unit, meaning) = info.map_or(("", ""), |i| (i.unit, i.meaning.trim()));
+            rows += &format!(
+                "<tr><th>{name}</th><td>{} {unit}</td><td>{}</td></tr>",
+                html(&value.str()?.to_string()),
+                html(meaning)
+            );
+        }
+        Ok(format!("<table><caption>{}</caption>{rows}</table>", html(&self.0.described())))
+    }
+
+    fn __eq__(&self, other: &Bound<'_, PyAny>) -> PyResult<bool> {
+        let Ok(other) = other.cast::<Self>() else { return Ok(false) };
+        let (a, b) = (&self.0, &other.get().0);
+        Ok(a.toml("law")? == b.toml("law")? && a.materials.added == b.materials.added)
+    }
+
+    fn __hash__(&self) -> PyResult<u64> {
+        use std::hash::{DefaultHasher, Hash as _, Hasher as _};
+        let mut hasher = DefaultHasher::new();
+        self.0.toml("law")?.hash(&mut hasher);
+        Ok(hasher.finish())
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String, Materials))> {
+        let restore = slf.py().import("carom._carom")?.getattr("WallLaw")?.getattr("_restored")?;
+        Ok((restore, (slf.get().0.toml("law")?, slf.get().0.materials.clone())))
+    }
+
+    #[staticmethod]
+    fn _restored(text: &str, materials: &Materials) -> PyResult<Self> {
+        Self::read(text, Some("law"), materials.clone(), "law")
+    }
+}
+
+/// Draws for walls that scatter: four along the last axis.
+fn four(draws: &Bound<'_, PyAny>) -> PyResult<[Input; 4]> {
+    let wrong = || PyValueError::new_err("draws: four numbers in [0, 1) for each impact, along the last axis");
+    let array = numpy(draws.py())?.call_method1("asarray", (draws,))?;
+    let shape: Vec<usize> = array.getattr("shape")?.extract()?;
+    if shape.last() != Some(&4) {
+        return Err(wrong());
+    }
+    let ellipsis = draws.py().Ellipsis();
+    let of = |place: usize| Input::of(&array.get_item((ellipsis.clone_ref(draws.py()), place))?, "draws", What::Draws);
+    Ok([of(0)?, of(1)?, of(2)?, of(3)?])
+}
