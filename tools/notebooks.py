@@ -3,6 +3,7 @@
 `tools/notebooks.py FOLDER` keeps the executed ones there.
 """
 
+import os
 import sys
 import time
 from pathlib import Path
@@ -14,6 +15,8 @@ ROOT = Path(__file__).resolve().parent.parent
 
 
 def main() -> None:
+    # figures are drawn into the notebook, whatever backend the environment asks for
+    os.environ.pop("MPLBACKEND", None)
     keep = Path(sys.argv[1]) if len(sys.argv) > 1 else None
     for path in sorted((ROOT / "examples" / "notebooks").glob("*.ipynb")):
         start = time.monotonic()

@@ -5,20 +5,26 @@ from __future__ import annotations
 import json
 import subprocess
 from pathlib import Path
+from typing import Any
 
 import numpy as np
-from conftest import command, rows, same
+import pytest
+from conftest import LAWS, command, rows, same
 
 import carom
+from carom._arrays import _document
 
 COLUMNS = ["normal", "tangential", "spin", "restitution", "impulse_ratio"]
 SHARES = ["adhesion", "adhesion_damping", "hertz_damping", "plastic", "other", "friction", "captured", "kept"]
 
 
-def test_as_rust(law: carom.WallLaw, answers: Path, tmp_path: Path) -> None:
+@pytest.mark.parametrize("keys", LAWS, ids=range(len(LAWS)))
+def test_as_rust(keys: dict[str, Any], answers: Path, tmp_path: Path) -> None:
     given = rows(1, 400)
     file = tmp_path / "law.toml"
-    file.write_text(law.to_toml())
+    # as it is written here: a curve that `to_toml` writes as pieces may differ in its last bit
+    file.write_text(_document({"law": {"x": keys}}))
+    law = carom.WallLaw(**keys)
     text = "\n".join(" ".join(map(repr, row)) for row in given.tolist())
     told = subprocess.run([str(answers), str(file)], input=text, capture_output=True, text=True, check=True)
     d, n, t, w = given.T

@@ -120,7 +120,7 @@ def test_arrays_in_a_case() -> None:
     corners = np.array([[x, 0.0, z] for x in (0.0, 0.01) for z in (0.0, 0.01)])
     faces = np.array([[0, 1, 3], [0, 3, 2]])
     g = np.meshgrid(np.linspace(0, 0.01, 3), np.linspace(0, 0.01, 4), np.linspace(0, 0.01, 3), indexing="ij")
-    columns = {"x": g[0], "y": g[1], "z": g[2], "u": 0 * g[0], "v": 0.1 - g[1], "w": 0.0}
+    columns = {"x": g[0], "y": g[1], "z": g[2], "u": 0 * g[0], "v": -0.5, "w": 0.0}
     case = {
         "flow": {"kind": "table", "columns": columns},
         "wall": [{"name": "plate", "triangles": (corners, faces), "law": "trap"}],
