@@ -88,7 +88,11 @@ pub fn read(case: &Path, options: &Options) -> Result<Snapshot, Error> {
 fn choose(case: &Path, time: Option<&str>, notes: &mut Vec<String>) -> Result<(Layout, Option<Time>), Error> {
     let mut layouts: Vec<_> = Layout::all(case)?.into_iter().filter(Layout::has_mesh).collect();
     if layouts.is_empty() {
-        let what = "no OpenFOAM case: there is no constant/polyMesh, whole or in processors' folders";
+        let mut what = "no OpenFOAM case: there is no constant/polyMesh, whole or in processors' folders".to_owned();
+        let regions = regions(case);
+        if !regions.is_empty() {
+            what += &format!("; there are regions, which are not read: {}", regions.join(", "));
+        }
         return Err(Error::file(case, what));
     }
     let missing = |name: &str| {
@@ -134,6 +138,14 @@ fn choose(case: &Path, time: Option<&str>, notes: &mut Vec<String>) -> Result<(L
         notes.push("the case in one piece does not have this time".into());
     }
     Ok((layout, found.1))
+}
+
+/// Folders of `constant` that have meshes of their own.
+fn regions(case: &Path) -> Vec<String> {
+    let constant = case.join("constant");
+    let mut names = layout::names(&constant).unwrap_or_default();
+    names.retain(|name| constant.join(name).join("polyMesh").is_dir());
+    names
 }
 
 fn all_fields(

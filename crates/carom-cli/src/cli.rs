@@ -1,7 +1,7 @@
 //! The command line as a whole.
 
 use crate::failure::Failure;
-use crate::{capture, export, fit, impact, materials, merge, run, shell, sweep, validate};
+use crate::{capture, export, fit, impact, info, materials, merge, run, shell, sweep, validate};
 use clap::builder::styling::{AnsiColor, Styles};
 use clap::{Parser, Subcommand};
 
@@ -12,6 +12,7 @@ Examples:
   carom capture --sphere copper --surface aluminium --over diameter=1um..1mm
   carom materials copper
   carom fit points.csv --sphere copper --surface glass --diameter 90um --free roughness_factor
+  carom info pitzDaily
   carom run examples/wind-tunnel.toml --out out/
   carom validate --out report/
   carom export --format openfoam --wall-law walls.toml:glass --diameter 10um..100um --speed 0.1..30
@@ -40,6 +41,7 @@ enum Command {
     Sweep(Box<sweep::Args>),
     Capture(Box<capture::Args>),
     Materials(materials::Args),
+    Info(info::Args),
     Run(run::Args),
     Merge(merge::Args),
     Fit(Box<fit::Args>),
@@ -57,6 +59,7 @@ impl Cli {
             Command::Sweep(args) => sweep::run(args),
             Command::Capture(args) => capture::run(args),
             Command::Materials(args) => materials::run(args),
+            Command::Info(args) => info::run(args),
             Command::Run(args) => run::run(args),
             Command::Merge(args) => merge::merge(args),
             Command::Fit(args) => fit::run(args),

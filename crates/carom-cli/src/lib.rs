@@ -12,6 +12,7 @@ mod fit;
 mod grid;
 mod history;
 mod impact;
+mod info;
 mod law;
 mod materials;
 mod merge;

@@ -9,7 +9,12 @@ const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
 #[test]
 fn examples_are_real_and_pictures_are_drawn_by_their_commands() {
     std::env::set_current_dir(ROOT).expect("the root");
-    trycmd::TestCases::new().case("README.md").case("docs/fit.md").case("docs/export.md").case("docs/which-law.md");
+    trycmd::TestCases::new()
+        .case("README.md")
+        .case("docs/cfd-results.md")
+        .case("docs/fit.md")
+        .case("docs/export.md")
+        .case("docs/which-law.md");
     let pages = [("README.md", 1), ("docs/fit.md", 3), ("docs/wall-law.md", 1), ("docs/uncertainty.md", 1)];
     for (page, pictures) in pages {
         let text = std::fs::read_to_string(page).expect("text");

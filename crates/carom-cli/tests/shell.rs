@@ -26,7 +26,7 @@ fn every_shell_knows_the_flags() {
 #[test]
 fn the_manual_has_a_page_for_the_whole_and_for_each_subcommand() {
     assert!(text(&["man"]).contains(".TH carom 1"));
-    for subcommand in ["impact", "sweep", "capture", "materials", "run", "merge", "fit", "validate", "export"] {
+    for subcommand in ["impact", "sweep", "capture", "materials", "info", "run", "merge", "fit", "validate", "export"] {
         let page = text(&["man", subcommand]);
         assert!(page.contains(&format!(".TH carom-{subcommand} 1")), "{subcommand}");
     }

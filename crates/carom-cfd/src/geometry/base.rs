@@ -11,6 +11,9 @@ use crate::Mesh;
 /// A tetrahedron of lower quality is flat or turned; the square of OpenFOAM's smallest number.
 const LEAST: f64 = 1e-30;
 
+/// At most so many corners of a face are tried, which matters for its time where it has very many.
+const TRIED: usize = 256;
+
 /// The corner of each face from which its fan starts.
 #[derive(Clone, Debug, Default)]
 pub struct BasePoints {
@@ -61,7 +64,7 @@ pub fn base_points(mesh: &Mesh, cell_centres: &[[f64; 3]]) -> BasePoints {
         let owner = cell_centres[mesh.owner[f] as usize];
         let other = mesh.neighbour.get(f).map(|&c| cell_centres[c as usize]);
         let (mut best, mut place) = (f64::NEG_INFINITY, 0);
-        for base in 0..corners.len() as u32 {
+        for base in 0..corners.len().min(TRIED) as u32 {
             let worst = worst_of_fan(&mesh.points, corners, base as usize, owner, other);
             if worst > best {
                 (best, place) = (worst, base);

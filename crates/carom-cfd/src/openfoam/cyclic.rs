@@ -57,8 +57,12 @@ pub(super) fn face_by_face(mesh: &Mesh, own: Range<usize>, other: Range<usize>, 
             // area vectors differ more than places where points are rounded
             away.max(length(turned) / length(a.area) * 0.1)
         };
-        // every corner comes to one of the partner's; without this a single face could be turned in its plane
+        // every corner comes to one of the partner's; without this a single face could be turned in its plane.
+        // Pairs of faces with very many corners are left out: each would be held against each
         let corners_off = |(f, g): (usize, usize)| {
+            if mesh.faces.get(f).len().saturating_mul(mesh.faces.get(g).len()) > 1 << 16 {
+                return 0.0;
+            }
             let nearest = |x| corners(g).map(|y| length(sub(carry.point(x), y))).fold(f64::INFINITY, f64::min);
             corners(f).map(nearest).fold(0.0, f64::max)
         };

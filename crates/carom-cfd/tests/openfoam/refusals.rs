@@ -7,6 +7,8 @@ fn no_case_no_mesh_no_fields() {
     let folder = tempfile::tempdir().unwrap();
     let none = "CASE: no OpenFOAM case: there is no constant/polyMesh, whole or in processors' folders";
     assert_eq!(refusal(folder.path()), none);
+    fs::create_dir_all(folder.path().join("constant/fluid/polyMesh")).unwrap();
+    assert_eq!(refusal(folder.path()), format!("{none}; there are regions, which are not read: fluid"));
     assert!(refusal(&folder.path().join("nowhere")).starts_with("CASE: "));
     let (_folder, case) = copied("block");
     fs::remove_dir_all(case.join("1")).unwrap();
