@@ -102,6 +102,21 @@ pub enum PatchKind {
     },
 }
 
+impl PatchKind {
+    /// Its word, as OpenFOAM has it.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Wall => "wall",
+            Self::Plain => "patch",
+            Self::Empty => "empty",
+            Self::Wedge => "wedge",
+            Self::Symmetry => "symmetry",
+            Self::Cyclic { .. } => "cyclic",
+            Self::CyclicAmi { .. } => "cyclicAMI",
+        }
+    }
+}
+
 /// A rotation and a translation: x ↦ Rx + t for points, v ↦ Rv for vectors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Carry {
@@ -115,6 +130,15 @@ impl Carry {
     /// A translation alone.
     pub fn by(translation: [f64; 3]) -> Self {
         Self { rotation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], translation }
+    }
+
+    /// The way back.
+    #[must_use]
+    pub fn inverse(&self) -> Self {
+        let r = &self.rotation;
+        let rotation = [0, 1, 2].map(|i| [r[0][i], r[1][i], r[2][i]]);
+        let t = &self.translation;
+        Self { rotation, translation: rotation.map(|row| -(row[0] * t[0] + row[1] * t[1] + row[2] * t[2])) }
     }
 
     /// A vector carried over.

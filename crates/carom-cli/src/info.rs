@@ -320,18 +320,19 @@ impl Info {
 fn patches(s: &Snapshot, q: &Quality) -> Vec<Patch> {
     let all = &s.mesh.patches;
     let one = |(p, area): (&carom_cfd::Patch, &f64)| {
-        let (kind, partner) = match p.kind {
-            PatchKind::Wall => ("wall", None),
-            PatchKind::Plain => ("patch", None),
-            PatchKind::Empty => ("empty", None),
-            PatchKind::Wedge => ("wedge", None),
-            PatchKind::Symmetry => ("symmetry", None),
-            PatchKind::Cyclic { partner, .. } => ("cyclic", Some(partner)),
-            PatchKind::CyclicAmi { partner, .. } => ("cyclicAMI", Some(partner)),
-            _ => ("other", None),
+        let partner = match p.kind {
+            PatchKind::Cyclic { partner, .. } | PatchKind::CyclicAmi { partner, .. } => Some(partner),
+            _ => None,
         };
         let partner = partner.map(|i| all[i].name.clone());
-        Patch { name: p.name.clone(), kind, groups: p.groups.clone(), faces: p.faces.len(), area: *area, partner }
+        Patch {
+            name: p.name.clone(),
+            kind: p.kind.name(),
+            groups: p.groups.clone(),
+            faces: p.faces.len(),
+            area: *area,
+            partner,
+        }
     };
     all.iter().zip(&q.areas).map(one).collect()
 }

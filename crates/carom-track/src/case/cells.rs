@@ -12,7 +12,7 @@ use carom::error::did_you_mean;
 use carom::spec::At;
 #[cfg(feature = "fluent")]
 use carom_cfd::fluent;
-use carom_cfd::{Names, Patch, PatchKind, Snapshot, check, openfoam, vtk};
+use carom_cfd::{Names, Patch, PatchKind, Snapshot, openfoam, vtk};
 use carom_table::quoted;
 use std::sync::Arc;
 
@@ -23,7 +23,7 @@ const ACROSS: f64 = 1e-6;
 /// Cells, faces or patches named in a message.
 const NAMED: usize = 12;
 
-/// Reads what the case's flow names; what the reader has to say is added to `notes`.
+/// Reads what the case's flow names, which the readers check; what the reader has to say is added to `notes`.
 pub(super) fn read(
     text: &At<FlowText>,
     walls: &[At<WallText>],
@@ -62,7 +62,6 @@ pub(super) fn read(
             (file, read.map_err(|e| wrong(file, e.to_string()))?)
         }
     };
-    check::snapshot(&snapshot).map_err(|e| wrong(at, format!("{}: {e}", at.value)))?;
     notes.extend(snapshot.notes.iter().map(|note| format!("{}: {note}", at.value)));
     give_kinds(&mut snapshot, walls)?;
     files.take_in(&snapshot);
@@ -106,7 +105,7 @@ fn matching<'a>(pattern: &At<String>, patches: &'a [Patch]) -> Result<Vec<&'a Pa
     if let Some(side) = found.iter().find(|p| {
         matches!(p.kind, PatchKind::Empty | PatchKind::Wedge | PatchKind::Cyclic { .. } | PatchKind::CyclicAmi { .. })
     }) {
-        let message = format!("patch '{}' is a side of the space ({}), not a wall", side.name, kind(&side.kind));
+        let message = format!("patch '{}' is a side of the space ({}), not a wall", side.name, side.kind.name());
         return Err(wrong(pattern, message).help("leave it out: the mesh says how the space goes on there"));
     }
     Ok(found)
@@ -120,21 +119,9 @@ fn no_patch(at: &At<String>, patches: &[Patch]) -> LawError {
 }
 
 fn listed<'a>(patches: impl IntoIterator<Item = &'a Patch>) -> String {
-    let all: Vec<String> = patches.into_iter().map(|p| format!("{} ({})", p.name, kind(&p.kind))).collect();
+    let all: Vec<String> = patches.into_iter().map(|p| format!("{} ({})", p.name, p.kind.name())).collect();
     let more = if all.len() > NAMED { format!(" and {} more", all.len() - NAMED) } else { String::new() };
     all.into_iter().take(NAMED).collect::<Vec<_>>().join(", ") + &more
-}
-
-fn kind(kind: &PatchKind) -> &'static str {
-    match kind {
-        PatchKind::Wall => "wall",
-        PatchKind::Empty => "empty",
-        PatchKind::Wedge => "wedge",
-        PatchKind::Symmetry => "symmetry",
-        PatchKind::Cyclic { .. } => "cyclic",
-        PatchKind::CyclicAmi { .. } => "cyclicAMI",
-        _ => "patch",
-    }
 }
 
 /// Patches that the case makes mirrors, or no mirrors any more.

@@ -17,6 +17,7 @@ pub(crate) use near_walls::NearWalls;
 pub use tetrahedron::Tetrahedron;
 
 use super::Local;
+use super::gas_nodes::GasNodes;
 use crate::geometry::{Bounds, Triangle};
 use crate::vector::{Vec3, add, dot, norm, scale, sub, unit};
 use beyond::{Plane, Wedge};
@@ -25,7 +26,6 @@ use carom_cfd::{Carry, Field, Patch, PatchKind, Snapshot};
 use cut::{Cut, NONE};
 use locate::Locator;
 use nodes::Nodes;
-use state::States;
 
 /// A flow on a mesh of cells.
 #[derive(Debug)]
@@ -40,7 +40,7 @@ pub struct Cells {
     /// k, m²/s², and ε, m²/s³, of the nodes, where there is turbulence.
     turbulence: Option<Vec<[f64; 2]>>,
     /// Temperature and density of the nodes, where there are any.
-    state: Option<States>,
+    state: Option<GasNodes>,
     patches: Vec<Patch>,
     plane: Option<Plane>,
     wedge: Option<Wedge>,
@@ -131,7 +131,7 @@ impl Cells {
             k.zip(dissipation).map(|(k, e)| k.iter().zip(&e).map(|(k, e)| [k[0].max(0.0), e[0].max(0.0)]).collect());
         let temperature = fields.temperature.as_ref().map(&scalar);
         let density = fields.density.as_ref().map(&scalar);
-        let state = temperature.map(|t| States::new(&t, density.as_deref()));
+        let state = temperature.map(|t| state::nodes(&t, density.as_deref()));
         let mut points = mesh.points.clone();
         let centres = points.len();
         points.extend(cell_centres);
@@ -365,7 +365,10 @@ impl Cells {
             let [k, epsilon] = self.blend(here, x, nodes);
             (local.k, local.epsilon) = (k.max(0.0), epsilon.max(0.0));
         }
-        local.gas = self.state.as_ref().map(|s| s.at(self, here, x));
+        local.gas = self
+            .state
+            .as_ref()
+            .map(|s| s.state(self.blend(here, x, &s.nodes), self.slope(here, |node| s.nodes[node][0])));
         local
     }
 

@@ -8,6 +8,7 @@ mod channel;
 mod fastest;
 mod fluid;
 mod gas;
+mod gas_nodes;
 mod humid;
 mod jet;
 mod local_gas;

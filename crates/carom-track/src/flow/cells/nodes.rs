@@ -52,12 +52,11 @@ impl Nodes<'_> {
         for face in 0..mesh.faces.len() {
             let corners = mesh.faces.get(face);
             let of = [mesh.owner.get(face), mesh.neighbour.get(face)];
-            for (sum, weight) in of.into_iter().flatten().map(|c| *c as usize).map(|c| (c, 1.0)) {
-                let (total, count) = &mut sums[sum];
+            for cell in of.into_iter().flatten() {
+                let (total, count) = &mut sums[*cell as usize];
                 for corner in corners {
-                    let value = points[*corner as usize];
-                    for (t, v) in total.iter_mut().zip(value) {
-                        *t += weight * v;
+                    for (t, v) in total.iter_mut().zip(points[*corner as usize]) {
+                        *t += v;
                     }
                 }
                 *count += corners.len() as f64;
@@ -103,7 +102,7 @@ impl Nodes<'_> {
     fn join<const N: usize>(&self, sums: &mut [([f64; N], f64)], turn: impl Fn(&Carry, [f64; N]) -> [f64; N]) {
         for (from, to, carry) in self.pairs {
             let ((a, wa), (b, wb)) = (sums[*from as usize], sums[*to as usize]);
-            let (there, back) = (turn(carry, a), turn(&inverse(carry), b));
+            let (there, back) = (turn(carry, a), turn(&carry.inverse(), b));
             let add = |a: [f64; N], b: [f64; N]| std::array::from_fn(|i| a[i] + b[i]);
             sums[*from as usize] = (add(a, back), wa + wb);
             sums[*to as usize] = (add(there, b), wa + wb);
@@ -134,14 +133,6 @@ pub(super) fn on_boundary(mesh: &Mesh) -> Vec<bool> {
         }
     }
     on
-}
-
-/// The way back.
-pub(super) fn inverse(carry: &Carry) -> Carry {
-    let r = &carry.rotation;
-    let rotation = [0, 1, 2].map(|i| [r[0][i], r[1][i], r[2][i]]);
-    let translation = rotation.map(|row| -dot(row, carry.translation));
-    Carry { rotation, translation }
 }
 
 /// A velocity less what leads through planes of symmetry, at the points on them.

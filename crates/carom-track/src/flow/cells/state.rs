@@ -2,40 +2,13 @@
 
 use super::Cells;
 use super::tetrahedron::Tetrahedron;
-use crate::flow::LocalGas;
+use crate::flow::gas_nodes::GasNodes;
 use crate::vector::Vec3;
 
-/// T, K, and ρ, kg/m³, of each node; ρ is 0 where it is not given.
-#[derive(Debug)]
-pub(super) struct States {
-    nodes: Vec<[f64; 2]>,
-    dense: bool,
-    /// Lowest and highest of both.
-    range: [[f64; 2]; 2],
-}
-
-impl States {
-    pub fn new(temperature: &[[f64; 1]], density: Option<&[[f64; 1]]>) -> Self {
-        let at = |i: usize| density.map_or(0.0, |d| d[i][0]);
-        let nodes: Vec<[f64; 2]> = temperature.iter().enumerate().map(|(i, t)| [t[0], at(i)]).collect();
-        let range = [0, 1].map(|q: usize| {
-            let all = || nodes.iter().map(|n| n[q]);
-            [all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max)]
-        });
-        Self { nodes, dense: density.is_some(), range }
-    }
-
-    #[inline(always)]
-    pub fn at(&self, cells: &Cells, here: &Tetrahedron, x: Vec3) -> LocalGas {
-        let [temperature, density] = cells.blend(here, x, &self.nodes);
-        // beyond a tetrahedron, where a step that is then cut may look, its formula may lead below all there is
-        let [least, light] = self.range.map(|[low, _]| 0.5 * low);
-        LocalGas {
-            temperature: temperature.max(least),
-            density: self.dense.then_some(density.max(light)),
-            temperature_gradient: cells.slope(here, |node| self.nodes[node][0]),
-        }
-    }
+/// The nodes' states from their temperatures and, where there are any, densities.
+pub(super) fn nodes(temperature: &[[f64; 1]], density: Option<&[[f64; 1]]>) -> GasNodes {
+    let at = |i: usize| density.map_or(0.0, |d| d[i][0]);
+    GasNodes::new(temperature.iter().enumerate().map(|(i, t)| [t[0], at(i)]).collect(), density.is_some())
 }
 
 impl Cells {

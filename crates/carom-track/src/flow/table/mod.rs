@@ -29,6 +29,7 @@ pub use columns::Named;
 pub use error::TableError;
 
 use super::Local;
+use super::gas_nodes::GasNodes;
 use super::piece::{Exit, Piece, leave, soonest};
 use crate::geometry::Path;
 use std::io::Read;
@@ -136,7 +137,7 @@ pub struct Table {
     axes: [Axis; 3],
     nodes: Vec<Node>,
     turbulent: bool,
-    state: Option<state::States>,
+    state: Option<GasNodes>,
     notes: Vec<String>,
 }
 
@@ -212,7 +213,7 @@ impl Table {
     /// Axes strictly rising and not empty; nodes with z running fastest.
     fn new(axes: [Vec<f64>; 3], read: &[Row], given: Given) -> Self {
         let nodes = read.iter().map(|[u, v, w, k, epsilon, ..]| [*u, *v, *w, *k, *epsilon]).collect();
-        let state = given.temperature.then(|| state::States::new(read, given.density));
+        let state = given.temperature.then(|| state::nodes(read, given.density));
         Self { axes: axes.map(Axis::new), nodes, turbulent: given.turbulence, state, notes: Vec::new() }
     }
 

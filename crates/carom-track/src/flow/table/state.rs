@@ -2,43 +2,24 @@
 
 use super::{DENSITY, Place, Row, TEMPERATURE, Table};
 use crate::flow::LocalGas;
+use crate::flow::gas_nodes::GasNodes;
 
-/// T and ρ of each node, in their order; ρ is 0 where it is not given.
-#[derive(Clone, Debug)]
-pub(super) struct States {
-    nodes: Vec<[f64; 2]>,
-    dense: bool,
-    /// Lowest and highest T, K, and ρ, kg/m³.
-    range: [[f64; 2]; 2],
+/// The nodes' states, in their order.
+pub(super) fn nodes(read: &[Row], dense: bool) -> GasNodes {
+    GasNodes::new(read.iter().map(|n| [n[TEMPERATURE], n[DENSITY]]).collect(), dense)
 }
 
-impl States {
-    pub(super) fn new(read: &[Row], dense: bool) -> Self {
-        let nodes: Vec<[f64; 2]> = read.iter().map(|n| [n[TEMPERATURE], n[DENSITY]]).collect();
-        let range = [0, 1].map(|q: usize| {
-            let all = || nodes.iter().map(|n| n[q]);
-            [all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max)]
-        });
-        Self { nodes, dense, range }
-    }
-
+impl GasNodes {
     /// In a cell, with the weights of its faces.
     #[inline(always)]
     pub(super) fn at(&self, table: &Table, p: &[Place; 3], w: [[f64; 2]; 3]) -> LocalGas {
-        let [temperature, density] = self.blend(table, p, w);
         let mut gradient = [0.0; 3];
         for j in 0..3 {
             let mut difference = w;
             difference[j] = [-p[j].slope, p[j].slope];
             [gradient[j], _] = self.blend(table, p, difference);
         }
-        // beyond a cell, where a step that is then cut may look, its formula may lead below all there is
-        let [least, light] = self.range.map(|[low, _]| 0.5 * low);
-        LocalGas {
-            temperature: temperature.max(least),
-            density: self.dense.then_some(density.max(light)),
-            temperature_gradient: gradient,
-        }
+        self.state(self.blend(table, p, w), gradient)
     }
 
     #[inline(always)]
