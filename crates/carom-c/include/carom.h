@@ -298,7 +298,7 @@ const char *carom_validity_name(uint64_t bit);
 // What that code means, in a sentence; NULL for a bit that means nothing (yet).
 const char *carom_validity_meaning(uint64_t bit);
 
-// The library's version, such as "0.1.0".
+// The library's version, such as "0.2.0".
 const char *carom_version(void);
 
 #ifdef __cplusplus

@@ -57,7 +57,7 @@ const VERSION: &CStr = match CStr::from_bytes_with_nul(concat!(env!("CARGO_PKG_V
     Err(_) => c"",
 };
 
-/// The library's version, such as "0.1.0".
+/// The library's version, such as "0.2.0".
 #[unsafe(no_mangle)]
 pub extern "C" fn carom_version() -> *const c_char {
     VERSION.as_ptr()
