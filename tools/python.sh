@@ -51,12 +51,23 @@ say "executors: a Dask cluster of two workers, two ranks of MPI"
 (cd "$crate" && "$py" -m pytest -m cluster)
 
 say "other versions of Python"
-for other in python3.10 python3.12 python3.13; do
-    command -v "$other" >/dev/null || continue
-    "$other" -c 'import sys; assert sys.version_info[:2] == tuple(map(int, "'"${other#python}"'".split(".")))' 2>/dev/null || continue
-    "$other" -m venv "$CARGO_TARGET_DIR/$other"
-    "$CARGO_TARGET_DIR/$other/bin/pip" install -q pytest hypothesis numpy "$wheels"/carom-*.whl
-    (cd "$crate" && "$CARGO_TARGET_DIR/$other/bin/python" -m pytest)
+# on the path, or as pyenv keeps them
+of_version() {
+    local candidate
+    for candidate in "python$1" "${PYENV_ROOT:-$HOME/.pyenv}/versions/$1".*/bin/python3; do
+        if "$candidate" -c "import sys; assert '%d.%d' % sys.version_info[:2] == '$1'" 2>/dev/null; then
+            echo "$candidate"
+            return 0
+        fi
+    done
+    return 1
+}
+for version in 3.10 3.12 3.13; do
+    other=$(of_version $version) || { echo "Python $version: not on this machine, not tried"; continue; }
+    "$other" -m venv "$CARGO_TARGET_DIR/python$version"
+    "$CARGO_TARGET_DIR/python$version/bin/pip" install -q pytest hypothesis numpy "$wheels"/carom-*.whl
+    echo "Python $version"
+    (cd "$crate" && "$CARGO_TARGET_DIR/python$version/bin/python" -m pytest)
 done
 
 say "benchmark"
