@@ -1,6 +1,7 @@
 """Sphinx's settings for the manual. Mathematics becomes MathML while building: nothing is fetched when a page is read."""
 
 import os
+import re
 
 from docutils.nodes import SkipNode
 from latex2mathml.converter import convert
@@ -35,13 +36,21 @@ html_static_path = ["_static"]
 html_css_files = ["manual.css"]
 
 
+# names of functions keep a distance from a letter that follows
+FUNCTION = re.compile(r"(<mi>(?:sin|cos|tan|ln)</mi>|<msup><mi>(?:sin|cos)</mi><mn>\d</mn></msup>)(?=<mi>|<mn>)")
+
+
+def mathml(node, display):
+    return FUNCTION.sub(r'\1<mspace width="0.17em"></mspace>', convert(node.astext(), display=display))
+
+
 def inline(translator, node):
-    translator.body.append(convert(node.astext()))
+    translator.body.append(mathml(node, "inline"))
     raise SkipNode
 
 
 def block(translator, node):
-    translator.body.append(f'<div class="math">{convert(node.astext(), display="block")}</div>')
+    translator.body.append(f'<div class="math">{mathml(node, "block")}</div>')
     raise SkipNode
 
 

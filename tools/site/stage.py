@@ -24,7 +24,7 @@ CHAPTERS = {
         "docs/c.md": "c",
         "plugins/fluent/README.md": "fluent",
         "plugins/code_saturne/README.md": "code-saturne",
-        "": "explorer",
+        "": "browser",
     },
     "Laws of the wall": {
         "docs/which-law.md": "which-law",
@@ -149,7 +149,7 @@ class Stage:
             "# carom", "", "What happens when a small particle hits a wall: does it stick or bounce, and how does it leave?", "",
             "![Restitution against speed](images/restitution.svg)", "",
             "[The tour](tour.md) goes from the first command to particles in a flow. [Which law](which-law.md) helps to choose;"
-            " [validation](validation.md) says how far to trust the answer. In a browser, without installing anything: [the explorer](explorer.md).", "",
+            " [validation](validation.md) says how far to trust the answer. In a browser, without installing anything: [the explorer](browser.md).", "",
         ]
         for chapter, pages in CHAPTERS.items():
             text += ["```{toctree}", f":caption: {chapter}", ":maxdepth: 1", "", *(NAMES.get(page, page) for page in pages.values()), "```", ""]
@@ -185,7 +185,7 @@ class Stage:
         known = list(known.values()) if isinstance(known, dict) else known
         text = [
             "# The library of materials", "", "Printed by `carom materials` when this manual was built; what the fields mean: [Materials](materials.md).", "",
-            "```text", self.says("materials").rstrip(), "```",
+            *as_rows(self.says("materials")),
         ]
         for material in known:
             name = material["name"]
@@ -220,7 +220,7 @@ class Stage:
             ]
         else:
             text += ["The explorer is a page that computes in the browser. It was not there when this copy of the manual was built.", ""]
-        self.write("explorer", "\n".join(text))
+        self.write("browser", "\n".join(text))
 
 
 def main() -> None:
