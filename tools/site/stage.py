@@ -13,6 +13,8 @@ import shutil
 import subprocess
 import sys
 
+import units
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 # where each file of the repository stands in the manual, by chapter
@@ -39,6 +41,7 @@ CHAPTERS = {
         "docs/case-file.md": "case-file",
         "docs/cfd-results.md": "cfd-results",
         "docs/columns.md": "columns",
+        "units": "units",
     },
     "Studies": {
         "docs/examples/wind-tunnel.md": "examples/wind-tunnel",
@@ -153,6 +156,12 @@ class Stage:
         ]
         for chapter, pages in CHAPTERS.items():
             text += ["```{toctree}", f":caption: {chapter}", ":maxdepth: 1", "", *(NAMES.get(page, page) for page in pages.values()), "```", ""]
+        text += [
+            "**Where the numbers come from.** Flags, materials, units, the comparison with experiments and the explorer were computed or printed when this copy was"
+            " built. Keys of laws and losses are written from their registry, and a test holds them. Command lines with their output, on"
+            " the tour and the pages about laws, fits, exports and CFD results, are run by tests. Columns, keys of case files and what the equations name are"
+            " checked while the manual is built. Benchmarks and studies were measured once, as their pages say.", "",
+        ]
         self.write("index", "\n".join(text))
         images = self.folder / "images"
         images.mkdir(parents=True, exist_ok=True)
@@ -237,9 +246,10 @@ def main() -> None:
     stage.library()
     stage.validated()
     stage.explorer_page()
+    stage.write("units", units.page())
     stage.style()
     shutil.move(folder.parent / "files", folder.parent / "extra" / "files")
-    print(f"{len(PAGES)} pages of the repository and {len(CHAPTERS['What the programs say']) + 2} made")
+    print(f"{len(PAGES)} pages of the repository and {len(CHAPTERS['What the programs say']) + 3} made")
 
 
 if __name__ == "__main__":
