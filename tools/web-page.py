@@ -81,6 +81,7 @@ def presets():
                     "speed": panel.get("speed"),
                     "curves": curves,
                     "points": points(panel, panel.get("speed")),
+                    "stated": [[s["at"], s.get("above", s.get("below")), "above" if "above" in s else "below"] for s in panel.get("stated", [])],
                     "pointsFrom": "; ".join(m["source"] for m in panel.get("measured", [])),
                     "source": experiment["source"],
                     "valuesFrom": experiment["values_from"],

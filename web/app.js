@@ -80,14 +80,14 @@ function tellFigures({ figures: f, m, row }) {
     ["capture velocity", f.capture === 0 ? "0: this law captures nothing" : Number.isFinite(f.capture) ? prefixed(f.capture, "m/s") : "none: captured at every speed", "normal speed"],
     ["exhausted above", Number.isFinite(f.exhausted) && prefixed(f.exhausted, "m/s"), "the end of the model"],
     ["yield velocity", f.yield > 0 && prefixed(f.yield, "m/s"), "of the law"],
-    ["yield velocity of the materials", !(f.yield > 0) && f.material_yield > 0 && prefixed(f.material_yield, "m/s"), "no plastic loss in the law"],
+    ["yield velocity of the materials", !(f.yield > 0) && f.material_yield > 0 && f.material_yield < 1e3 && prefixed(f.material_yield, "m/s"), "no plastic loss in the law"],
     ["critical angle", Number.isFinite(f.critical_angle) && `${short(f.critical_angle)}°`, "slides to the end below"],
     ["roughness factor", f.roughness_factor !== 1 && short(f.roughness_factor), "C_R in force"],
     ["stiffness", Number.isFinite(f.stiffness) && prefixed(f.stiffness, "Pa"), "K"],
     ["work of adhesion", Number.isFinite(f.work_of_adhesion) && prefixed(f.work_of_adhesion, "J/m²"), "w"],
     ["Tabor's parameter", Number.isFinite(f.tabor) && short(f.tabor), f.tabor > 5 ? "JKR" : f.tabor < 0.1 ? "DMT" : "transition"],
   ].filter(([, v]) => v);
-  put("numbers", rows.map(([a, b, c]) => `<tr><th>${a}</th><td>${escapeXml(b)}</td><td>${c}</td></tr>`).join(""));
+  put("numbers", rows.map(([a, b, c]) => `<tr><th>${a}</th><td${b.length < 14 ? ' class="short"' : ""}>${escapeXml(b)}</td><td>${c}</td></tr>`).join(""));
   put("warnings", f.warnings.map((w) => `<li><b>${w.code}</b>: ${escapeXml(w.words)}</li>`).join(""));
   document.getElementById("warned").hidden = f.warnings.length === 0;
 }
@@ -131,6 +131,7 @@ async function slow(shown, mine) {
   const [first, second] = await Promise.all(asked);
   if (mine !== turn) return;
   const map = second ?? first;
+  Object.assign(shown, { map: map.cells && { columns, rows, speeds, diameters, cells: map.cells }, moments: second && first.moments });
   if (map.refused) { put("map", `<p class="none">${escapeXml(map.refused)}</p>`); put("map-legend", ""); } else drawMap(shown, columns, rows, speeds, diameters, map.cells);
   if (second) {
     if (first.refused) { put("history", `<p class="none">${escapeXml(first.refused)}</p>`); put("history-legend", ""); } else drawHistory(first.moments);

@@ -57,6 +57,21 @@ function csvOf(id) {
   return [["curve", ...head], ...curves.flatMap(([name, c]) => c.rows.map((r) => [quoted(name), ...words(r)]))].map((r) => r.join(",")).join("\n");
 }
 
+/** What the worker computed, as a table: the map's cells, or the contact's moments. */
+function slowCsv(id) {
+  const { map, moments } = SHOWN;
+  if (id === "history") {
+    const rows = Array.from({ length: (moments?.length ?? 0) / 6 }, (_, i) => moments.slice(6 * i, 6 * i + 6).join(","));
+    return ["time,overlap,speed,hertz_force,net_force,slip", ...rows].join("\n");
+  }
+  const at = (n, [a, b]) => Array.from({ length: n }, (_, i) => (i === 0 ? a : i === n - 1 ? b : a * (b / a) ** (i / (n - 1))));
+  const rows = map ? at(map.rows, map.diameters).flatMap((d, j) => at(map.columns, map.speeds).map((v, i) => {
+    const k = 2 * (j * map.columns + i);
+    return [d, v, REGIONS[map.cells[k]][0], LISTS.validity.filter((c) => map.cells[k + 1] & c.bit).map((c) => c.code).join(" ")].join(",");
+  })) : [];
+  return ["diameter,speed,region,validity", ...rows].join("\n");
+}
+
 /** Points of a CSV file with a head of names, as `carom fit` reads them: what runs, the quantity, and sigma. */
 function readPoints(text) {
   const lines = text.split(/\r?\n/).filter((l) => l.trim() && !l.startsWith("#"));
@@ -142,7 +157,7 @@ function listen() {
   });
   document.querySelectorAll("[data-save]").forEach((n) => n.addEventListener("click", () => {
     const [id, kind] = n.dataset.save.split(".");
-    if (kind === "csv") save(`carom-${id}.csv`, "text/csv", `${csvOf(id)}\n`);
+    if (kind === "csv") save(`carom-${id}.csv`, "text/csv", `${["map", "history"].includes(id) ? slowCsv(id) : csvOf(id)}\n`);
     else if (standalone(id)) save(`carom-${id}.svg`, "image/svg+xml", standalone(id));
   }));
   by("theme").addEventListener("click", () => {

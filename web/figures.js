@@ -61,12 +61,18 @@ function drawCurves(shown) {
   const x = axisOf(s.over, from, to);
   const y = { from: least, to: s.quantity === "impulse_ratio" ? Math.max(...all.filter(Number.isFinite), 0.05) * 1.08 : most, label: QUANTITIES[s.quantity] };
   const main = "var(--main)";
+  const preset = PRESETS.find((p) => p.id === s.preset);
+  const stated = preset && preset.over === s.over && preset.quantity === s.quantity ? preset.stated : [];
   const svg = frame({ ...sized("curves"), x, y, label: `${QUANTITIES[s.quantity]} over ${s.over}` }, (sx, sy, box) => {
-    const parts = [];
+    const parts = [], told = [];
     let row = 0;
     LISTS.validity.forEach((v) => {
       const found = ranges(own.rows, v.bit);
-      found.forEach(([a, b]) => parts.push(shaded(a, b, v.code, sx, box, row, v.code === "above-yield" ? "mild" : "")));
+      found.forEach(([a, b]) => {
+        const [ground, words] = shaded(a, b, v.code, sx, box, row, v.code === "above-yield" ? "mild" : "");
+        parts.push(ground);
+        told.push(words);
+      });
       row += found.length ? 1 : 0;
     });
     kept.forEach((k, i) => {
@@ -84,14 +90,15 @@ function drawCurves(shown) {
     }
     const here = m[s.over], one = shown.row[ROW[s.quantity]];
     if (here >= from && here <= to && Number.isFinite(one)) parts.push(`<circle cx="${sx(here).toFixed(1)}" cy="${sy(one).toFixed(1)}" r="5" fill="${main}" class="here"/>`);
-    parts.push(dots(s.points, sx, sy, "var(--ink)"));
+    parts.push(limits(stated, sx, sy), dots(s.points, sx, sy, "var(--ink)"), ...told);
     return parts.join("");
   });
   put("curves", svg);
-  const [first] = PRESETS.find((p) => p.id === s.preset)?.curves ?? [];
+  const [first] = preset?.curves ?? [];
   const same = first && !first.to && JSON.stringify(first.law) === JSON.stringify(s.law) && first.diameter === s.motion.diameter;
   const entries = [{ label: same ? `this law: ${first.label}` : "this law", color: main }];
   kept.forEach((k, i) => entries.push({ label: k.label, color: COLORS[(i + 1) % COLORS.length], dash: k.dashed ? DASHES[1] : k.high ? "" : DASHES[(i + 1) % 4] }));
+  if (stated.length) entries.push({ label: `limits that the source states: ${stated.map(([x, y, side]) => `${side} ${y} at ${x}`).join(", ")}`, kind: "limit" });
   if (s.points.length) entries.push({ label: shown.pointsFrom, color: "var(--ink)", kind: "dot" });
   document.getElementById("curves-legend").innerHTML = legend(entries);
 }

@@ -101,15 +101,16 @@ function area(lower, upper, sx, sy, fill, more = "") {
   return `<path d="${path(both, sx, sy)}Z" fill="${fill}"${more}/>`;
 }
 
-/** A shaded range of x, with words along its top. */
+/** A shaded range of x, and words along its top, which are drawn last. */
 function shaded(from, to, text, sx, box, row, kind) {
   const [a, b] = [Math.max(box.left, sx(from)), Math.min(box.right, sx(to))];
-  if (!(b - a > 0.5)) return "";
-  const room = Math.floor((b - a) / 6.2);
+  if (!(b - a > 0.5)) return ["", ""];
+  const room = Math.floor((b - a) / 6.2), y = box.top + 4 + row * 17;
   const words = text.length <= room ? text : room > 6 ? `${text.slice(0, room - 1)}…` : "";
-  return `<rect class="shade ${kind}" x="${a.toFixed(1)}" y="${box.top}" width="${(b - a).toFixed(1)}" height="${box.bottom - box.top}"><title>${escapeXml(text)}</title></rect>
-<line class="edge ${kind}" x1="${a.toFixed(1)}" x2="${b.toFixed(1)}" y1="${box.top + 4 + row * 17}" y2="${box.top + 4 + row * 17}"/>
-<text class="shade-text" x="${(a + 3).toFixed(1)}" y="${box.top + 16 + row * 17}">${escapeXml(words)}</text>`;
+  return [
+    `<rect class="shade ${kind}" x="${a.toFixed(1)}" y="${box.top}" width="${(b - a).toFixed(1)}" height="${box.bottom - box.top}"><title>${escapeXml(text)}</title></rect>`,
+    `<line class="edge ${kind}" x1="${a.toFixed(1)}" x2="${b.toFixed(1)}" y1="${y}" y2="${y}"/><text class="shade-text" x="${(a + 3).toFixed(1)}" y="${y + 12}">${escapeXml(words)}</text>`,
+  ];
 }
 
 /** A vertical mark with a word beside it. */
@@ -128,11 +129,20 @@ function dots(points, sx, sy, color) {
   }).join("");
 }
 
+/** Limits that a source states in words: the model is to lie where the arrow points. */
+function limits(stated, sx, sy) {
+  return stated.map(([x, y, side]) => {
+    const [px, py, up] = [sx(x), sy(y), side === "above" ? -1 : 1];
+    return `<path class="limit" d="M${px - 7} ${py}H${px + 7}M${px} ${py}v${11 * up}m-4 ${-5 * up}l4 ${5 * up}l4 ${-5 * up}"><title>stated: ${side} ${y} at ${x}</title></path>`;
+  }).join("");
+}
+
 /** Colours, dashes and words beside a plot. */
 function legend(entries) {
   return entries.map(({ label, color, dash, kind }) => {
     const swatch = kind === "area" ? `<rect x="1" y="2" width="22" height="10" fill="${color}" opacity="${dash ?? 1}"/>`
       : kind === "dot" ? `<circle cx="12" cy="7" r="4" fill="none" stroke="${color}" stroke-width="2"/>`
+        : kind === "limit" ? `<path class="limit" d="M5 3H19M12 3v9m-4 -4l4 4l4 -4"/>`
         : kind === "hatch" ? `<rect x="1" y="2" width="22" height="10" fill="url(#hatch)" stroke="currentColor" stroke-width="0.5"/>`
           : `<line x1="1" x2="23" y1="7" y2="7" stroke="${color}" stroke-width="2.5"${dash ? ` stroke-dasharray="${dash}"` : ""}/>`;
     return `<li><svg width="24" height="14" aria-hidden="true">${swatch}</svg>${escapeXml(label)}</li>`;
