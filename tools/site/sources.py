@@ -123,6 +123,10 @@ def paper() -> int:
             fault(f"paper.md: the row '{row}' or its number in `carom validate` was not found")
         elif float(number[1]) != round(float(found[1]), len(number[1].partition(".")[2])):
             fault(f"paper.md, '{row}': {number[1]}, but `carom validate` says {found[1]}")
+    cited = set(re.findall(r"@([a-z]+\d{4})", said))
+    listed = set(re.findall(r"^@\w+\{(\w+),", text("paper/paper.bib"), re.MULTILINE))
+    for key in sorted(cited ^ listed):
+        fault(f"paper: {key} is cited and not listed, or listed and not cited")
     return len(want)
 
 
