@@ -145,6 +145,19 @@ law = carom.WallLaw(sphere='copper', surface='glass', normal='ea', friction=0.2,
 print(law.impact('90 um', '2 m/s', 30).restitution)"
 fi
 
+say "the explorer"
+web=$CARGO_TARGET_DIR/web
+[ -s "$web/explorer.html" ] || [ -n "$quick" ] || tools/web.sh
+if [ -s "$web/explorer.html" ]; then
+    cp "$web/explorer.html" "$out/carom-explorer-$version.html"
+    rustc=rustc
+    [ ! -x "$web/rustc" ] || rustc=$web/rustc
+    bill carom-web carom-explorer --rustc "$rustc"
+    cp "$work/carom-explorer.txt" "$out/carom-explorer-$version-licences.txt"
+else
+    skipped+=("the explorer: tools/web.sh has not made it")
+fi
+
 say "the crates, in the order of publishing"
 if [ -n "$quick" ]; then
     skipped+=("building each crate from its package (a step of .ci/run)")

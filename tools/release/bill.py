@@ -103,9 +103,9 @@ def ours(package: dict) -> bool:
     return package["source"] is None
 
 
-def standard_library() -> tuple[str, str, str]:
-    """Version and licence of Rust's standard library, and the text that Rust ships for it."""
-    rustc = subprocess.run(["rustc", "-vV"], capture_output=True, text=True, check=True, cwd=ROOT).stdout
+def standard_library(compiler: str) -> tuple[str, str, str]:
+    """Version and licence of the compiler's standard library, and the text that Rust ships for it (the toolchain's at hand)."""
+    rustc = subprocess.run([compiler, "-vV"], capture_output=True, text=True, check=True, cwd=ROOT).stdout
     version = re.search(r"^release: (.*)$", rustc, re.MULTILINE).group(1)
     root = pathlib.Path(subprocess.run(["rustc", "--print", "sysroot"], capture_output=True, text=True, check=True, cwd=ROOT).stdout.strip())
     page = next((p for p in (root / "share/doc").rglob("COPYRIGHT-library.html")), None)
@@ -119,7 +119,7 @@ def standard_library() -> tuple[str, str, str]:
     return version, "MIT OR Apache-2.0", re.sub(r"\n\s*\n+", "\n\n", body).strip()
 
 
-def write_licences(path: pathlib.Path, name: str, version: str, parts: list[dict]) -> None:
+def write_licences(path: pathlib.Path, name: str, version: str, parts: list[dict], compiler: str) -> None:
     shared: dict[str, list[str]] = {}
     without, lines = [], []
     for part in parts:
@@ -132,7 +132,7 @@ def write_licences(path: pathlib.Path, name: str, version: str, parts: list[dict
             without.append(part)
         for file, text in found:
             shared.setdefault(text, []).append(f"{label} ({file})")
-    std, std_licence, std_text = standard_library()
+    std, std_licence, std_text = standard_library(compiler)
     out = [
         f"Licences of what {name} {version} contains", "",
         "carom itself is MIT OR Apache-2.0 (LICENSE-MIT, LICENSE-APACHE). It is linked with:", "",
@@ -150,7 +150,7 @@ def write_licences(path: pathlib.Path, name: str, version: str, parts: list[dict
     path.write_text("\n".join(out), encoding="utf-8")
 
 
-def write_sbom(path: pathlib.Path, name: str, version: str, parts: list[dict]) -> None:
+def write_sbom(path: pathlib.Path, name: str, version: str, parts: list[dict], compiler: str) -> None:
     from cyclonedx.contrib.license.factories import LicenseFactory
     from cyclonedx.model import ExternalReference, ExternalReferenceType, HashAlgorithm, HashType, XsUri
     from cyclonedx.model.bom import Bom
@@ -180,7 +180,7 @@ def write_sbom(path: pathlib.Path, name: str, version: str, parts: list[dict]) -
         type=ComponentType.APPLICATION, name=name, version=version, bom_ref="root", licenses=[licences.make_with_expression("MIT OR Apache-2.0")]
     )
     made = {(part["name"], part["version"]): component(part) for part in parts}
-    std, std_licence, _ = standard_library()
+    std, std_licence, _ = standard_library(compiler)
     library = Component(
         type=ComponentType.LIBRARY, name="rust-std", version=std, bom_ref=f"rust-std@{std}", licenses=[licences.make_with_expression(std_licence)]
     )
@@ -210,13 +210,14 @@ def main() -> None:
     ask.add_argument("--name", required=True)
     ask.add_argument("--sbom", type=pathlib.Path)
     ask.add_argument("--licences", type=pathlib.Path)
+    ask.add_argument("--rustc", default="rustc", help="whose standard library is linked")
     wanted = ask.parse_args()
     parts = packages(wanted.manifest, wanted.package)
     version = next(p["version"] for p in parts if p["name"] == wanted.package)
     if wanted.licences:
-        write_licences(wanted.licences, wanted.name, version, parts)
+        write_licences(wanted.licences, wanted.name, version, parts, wanted.rustc)
     if wanted.sbom:
-        write_sbom(wanted.sbom, wanted.name, version, parts)
+        write_sbom(wanted.sbom, wanted.name, version, parts, wanted.rustc)
     print(f"{wanted.name} {version}: {len(parts)} packages, {sum(map(ours, parts))} of them carom's, and Rust's standard library")
 
 
