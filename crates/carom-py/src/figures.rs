@@ -2,7 +2,7 @@
 
 use crate::columns::{CHUNK, Held, empty, over, shape, threads, written};
 use crate::numbers::{Input, What, one};
-use crate::outcome::place;
+use crate::outcomes::place;
 use crate::words;
 use carom::{ImpactError, WallLaw, Window};
 use pyo3::prelude::*;

@@ -3,7 +3,8 @@
 use crate::columns::shape;
 use crate::materials::{Materials, file_error, html};
 use crate::numbers::{Input, What, numpy};
-use crate::outcome::{More, Outcome, Outcomes, place};
+use crate::outcome::Outcome;
+use crate::outcomes::{More, Outcomes, place};
 use crate::rows::Rows;
 use crate::{figures, keys, words};
 use carom::spec::{Key, LawSpec, NormalSpec, parse_named_law, parse_only_law};

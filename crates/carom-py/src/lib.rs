@@ -11,6 +11,7 @@ mod law;
 mod materials;
 mod numbers;
 mod outcome;
+mod outcomes;
 mod rows;
 mod run;
 mod study;
@@ -84,7 +85,7 @@ fn _carom(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add("VALIDITY", validity(m.py())?)?;
     m.add_class::<law::WallLaw>()?;
     m.add_class::<outcome::Outcome>()?;
-    m.add_class::<outcome::Outcomes>()?;
+    m.add_class::<outcomes::Outcomes>()?;
     m.add_class::<materials::Materials>()?;
     m.add_class::<materials::Material>()?;
     m.add_class::<table::Table>()?;

@@ -4,7 +4,7 @@ use carom::error::{ErrorKind, Wording};
 use carom::spec::Key;
 use carom::{ImpactError, LawError};
 use carom_lab::LabError;
-use carom_track::RunError;
+use carom_track::{Remedy, RunError};
 use pyo3::PyErr;
 use pyo3::exceptions::{PyOSError, PyRuntimeError, PyTypeError, PyValueError};
 
@@ -92,10 +92,15 @@ pub fn of_run(error: RunError) -> PyErr {
         RunError::NoFolder => {
             PyValueError::new_err("nothing to resume: an interrupted run is found by its output folder, give out=")
         }
-        RunError::Foreign { path, message } => {
-            let said =
-                message.replace("--force", "force=True").replace("--resume", "resume=True").replace("--shard", "shard");
-            PyValueError::new_err(format!("{}: {said}", path.display()))
+        RunError::Foreign { path, message, remedy } => {
+            let remedy = match remedy {
+                None => "",
+                Some(Remedy::Resume) => ": go on with it with resume=True",
+                Some(Remedy::Force) => ": start anew with force=True",
+                Some(Remedy::ForceOrPutBack) => ": start anew with force=True, or put back what was there",
+                Some(Remedy::SameShard) => ": give the same shard",
+            };
+            PyValueError::new_err(format!("{}: {message}{remedy}", path.display()))
         }
         RunError::Busy { .. } | RunError::Missing { .. } | RunError::Shard { .. } => {
             PyValueError::new_err(error.to_string())

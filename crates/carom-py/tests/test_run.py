@@ -165,7 +165,8 @@ def test_progress_and_a_callback_that_stops(tmp_path: Path) -> None:
 def test_ctrl_c_stops(tmp_path: Path) -> None:
     script = tmp_path / "long.py"
     script.write_text(
-        "import carom, sys\nsys.path.insert(0, sys.argv[1])\nfrom test_run import CASE\n"
+        # whoever runs the tests in the background has the signal ignored, and children inherit that
+        "import carom, signal, sys\nsignal.signal(signal.SIGINT, signal.default_int_handler)\nsys.path.insert(0, sys.argv[1])\nfrom test_run import CASE\n"
         "case = {**CASE, 'injection': [{**CASE['injection'][0], 'count': 50_000_000}]}\n"
         "def told(done, _):\n    print(done, flush=True)\n"
         "carom.run(case, sys.argv[2], progress=told, threads=2)\n"

@@ -76,6 +76,6 @@ pub(crate) mod vector;
 
 pub use about::About;
 pub use case::{Case, CaseError};
-pub use run::{DepositFace, Progress, RunError, RunOptions, Shard, Silent, deposit_faces, merge, run};
+pub use run::{DepositFace, Progress, Remedy, RunError, RunOptions, Shard, Silent, deposit_faces, merge, run};
 pub use summary::Summary;
 pub use tables::TableFormat;

@@ -110,7 +110,31 @@ impl Progress for Silent {
     fn particles(&self, _: u64, _: u64) {}
 }
 
-/// A run that could not be made.
+/// What to do about a folder that holds something else: each front says it in its own words.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Remedy {
+    /// Go on with it.
+    Resume,
+    /// Start anew in its place.
+    Force,
+    /// Start anew in its place, or put back the case and the files that it names.
+    ForceOrPutBack,
+    /// Give the same shard as before.
+    SameShard,
+}
+
+impl Remedy {
+    fn in_flags(self) -> &'static str {
+        match self {
+            Self::Resume => ": go on with it with --resume",
+            Self::Force => ": start anew with --force",
+            Self::ForceOrPutBack => ": start anew with --force, or put back what was there",
+            Self::SameShard => ": give the same --shard",
+        }
+    }
+}
+
+/// A run that could not be made. Its text speaks to the command's users.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RunError {
@@ -123,12 +147,14 @@ pub enum RunError {
         source: std::io::Error,
     },
     /// What is in the folder does not belong to this run.
-    #[error("{}: {message}", path.display())]
+    #[error("{}: {message}{}", path.display(), remedy.map_or("", Remedy::in_flags))]
     Foreign {
         /// Which file.
         path: PathBuf,
-        /// What is wrong, and what would be right.
+        /// What is wrong.
         message: String,
+        /// What would be right, where an option of the run would be.
+        remedy: Option<Remedy>,
     },
     /// A stream could not be read or written.
     #[error(transparent)]
@@ -203,7 +229,11 @@ impl RunError {
     }
 
     pub(crate) fn foreign(path: impl Into<PathBuf>, message: impl Into<String>) -> Self {
-        Self::Foreign { path: path.into(), message: message.into() }
+        Self::Foreign { path: path.into(), message: message.into(), remedy: None }
+    }
+
+    pub(crate) fn foreign_but(path: impl Into<PathBuf>, message: impl Into<String>, remedy: Remedy) -> Self {
+        Self::Foreign { path: path.into(), message: message.into(), remedy: Some(remedy) }
     }
 }
 

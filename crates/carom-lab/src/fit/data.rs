@@ -98,7 +98,7 @@ fn measurement(row: &Row, text: &str, diameter: Option<f64>) -> Result<Measureme
     let speed = row.speed.as_ref().ok_or_else(|| row.wrong("a point without a speed", "give one, in m/s"))?;
     let given = row.diameter.as_ref().map(|d| d.value).or(diameter);
     let diameter = given.ok_or_else(|| {
-        row.wrong("a point without a diameter", "add a column diameter, in m, or give --diameter for all points")
+        row.wrong("a point without a diameter", "add a column diameter, in m, or give one diameter for all points")
     })?;
     for (value, name, low) in
         [(&row.restitution, "restitution", 0.0), (&row.tangential_restitution, "tangential_restitution", -1.0)]

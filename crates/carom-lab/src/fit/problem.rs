@@ -87,7 +87,7 @@ impl<'a> Problem<'a> {
         let refuse = |message: String, help: String| Err(LabError::Fit(LawError::new(message).help(help)));
         if self.law.scatters() {
             let message = "the law scatters (roughness_angle), and a fit needs one answer to each impact".to_owned();
-            return refuse(message, "fit the smooth wall: roughness_angle = 0, or --roughness-angle 0".to_owned());
+            return refuse(message, "fit the smooth wall: roughness_angle = 0".to_owned());
         }
         let tangential = data.points.iter().any(|p| p.tangential_restitution.is_some());
         for (n, free) in self.free.iter().enumerate() {

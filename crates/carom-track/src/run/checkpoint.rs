@@ -1,7 +1,7 @@
 //! How far a run is: `checkpoint.json`.
 
 use super::disk::{Disk, replace};
-use super::{RunError, Shard};
+use super::{Remedy, RunError, Shard};
 use crate::about::About;
 use crate::block::empty;
 use crate::case::{Case, Fingerprint};
@@ -95,7 +95,7 @@ impl State {
         if let Ok(form) = serde_json::from_str::<Form>(&text)
             && (form.version != VERSION || form.program != PROGRAM)
         {
-            return Err(RunError::foreign(path, "written by another version of carom: start anew with --force"));
+            return Err(RunError::foreign_but(path, "written by another version of carom", Remedy::Force));
         }
         let body = sealed(&text).ok_or_else(|| damaged(&path, "its checksum is not that of what it says"))?;
         let state: Self = serde_json::from_str(&body)
@@ -142,14 +142,13 @@ impl State {
 
     /// Whether this state is one of a run as another begins; what is wrong if not.
     pub fn is_of(&self, fresh: &Self, folder: &Path) -> Result<(), RunError> {
-        let foreign = |message: &str| Err(RunError::foreign(folder.join(CHECKPOINT), message));
+        let foreign = |message: &str, remedy| Err(RunError::foreign_but(folder.join(CHECKPOINT), message, remedy));
         if self.fingerprint != fresh.fingerprint {
-            return foreign(
-                "the case, its materials or a file it names was changed since: start anew with --force, or put back what was there",
-            );
+            let message = "the case, its materials or a file it names was changed since";
+            return foreign(message, Remedy::ForceOrPutBack);
         }
         if self.shard != fresh.shard || self.particles != fresh.particles {
-            return foreign("belongs to another shard: give the same --shard");
+            return foreign("belongs to another shard", Remedy::SameShard);
         }
         let names = |s: &Summary| s.walls.iter().map(|w| w.name.clone()).collect::<Vec<_>>();
         if names(&self.summary) != names(&fresh.summary) || self.formats != fresh.formats || self.bins != fresh.bins {
@@ -181,7 +180,7 @@ impl State {
 }
 
 fn damaged(path: &Path, why: &str) -> RunError {
-    RunError::foreign(path, format!("damaged ({why}): start anew with --force"))
+    RunError::foreign_but(path, format!("damaged ({why})"), Remedy::Force)
 }
 
 /// The text that a checksum at its end is of, if it is.

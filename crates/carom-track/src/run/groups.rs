@@ -1,8 +1,8 @@
 //! A Parquet table that grows while the run goes on.
 
-use super::RunError;
 use super::disk::{Disk, create};
 use super::stream::Stream;
+use super::{Remedy, RunError};
 use crate::record::columns::{Column, Columns};
 use crate::tables::{Layout, What, Words};
 use carom_table::{RowGroups, Schema, Table, TableReader};
@@ -38,7 +38,7 @@ impl Groups {
             let rest = rest.map(|path| read(path, layout.schema())).transpose()?;
             let mut file = std::fs::File::open(path).map_err(RunError::io(path))?;
             let taken = RowGroups::take_up(layout.schema(), GROUP, &mut file, length, rest);
-            taken.map_err(|e| RunError::foreign(path, format!("{e}: start anew with --force")))?
+            taken.map_err(|e| RunError::foreign_but(path, e.to_string(), Remedy::Force))?
         };
         stream.seek_end()?;
         Ok(Self { stream, groups, texts: HashMap::new() })

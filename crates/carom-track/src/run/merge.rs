@@ -3,7 +3,7 @@
 use super::checkpoint::State;
 use super::disk::{Disk, Lock, Machine};
 use super::output::{Found, Output, SUMMARY, cells_file, clear, forms, ours, refuse_occupied};
-use super::{RunError, Shard, vtp};
+use super::{Remedy, RunError, Shard, vtp};
 use crate::about::About;
 use crate::summary::Summary;
 use crate::tables::{LAYOUTS, TableFormat};
@@ -87,7 +87,7 @@ fn parts(shards: &[PathBuf]) -> Result<Vec<Part<'_>>, RunError> {
             return Err(RunError::Busy { folder: folder.clone() });
         }
         if !state.finished {
-            return Err(RunError::foreign(folder, "this shard is not finished: go on with it with --resume"));
+            return Err(RunError::foreign_but(folder, "this shard is not finished", Remedy::Resume));
         }
         let Some(shard) = state.shard else {
             return Err(RunError::foreign(folder, "a whole run, not a shard: there is nothing to merge"));

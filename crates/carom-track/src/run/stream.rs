@@ -1,7 +1,7 @@
 //! A file that a run appends to.
 
-use super::RunError;
 use super::disk::{Disk, same_file};
+use super::{Remedy, RunError};
 use std::fs::{File, OpenOptions};
 use std::io::{Seek, SeekFrom};
 use std::path::{Path, PathBuf};
@@ -23,7 +23,7 @@ impl Stream {
         let fresh = length == 0;
         let file = options.create(fresh).write(true).truncate(fresh).open(path).map_err(&error)?;
         if file.metadata().map_err(&error)?.len() < length {
-            return Err(RunError::foreign(path, "shorter than the checkpoint says: start anew with --force"));
+            return Err(RunError::foreign_but(path, "shorter than the checkpoint says", Remedy::Force));
         }
         file.set_len(length).map_err(&error)?;
         let mut stream = Self { path: path.to_owned(), file, length, dirty: false };

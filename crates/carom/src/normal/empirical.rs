@@ -50,19 +50,6 @@ impl Piece {
         Ok(Self { from, to, origin, coefficients })
     }
 
-    /// Coefficients in powers of the angle itself, by Horner's scheme; without the zeros that end them.
-    fn about_zero(&self) -> Vec<f64> {
-        let mut sum: Vec<f64> = Vec::with_capacity(MAX_COEFFICIENTS);
-        for &c in self.coefficients.iter().rev().skip_while(|c| **c == 0.0) {
-            // sum · (angle − origin) + c
-            let lower: Vec<f64> = sum.iter().map(|s| -s * self.origin).chain([0.0]).collect();
-            sum.insert(0, 0.0);
-            sum.iter_mut().zip(lower).for_each(|(s, l)| *s += l);
-            sum[0] += c;
-        }
-        if sum.is_empty() { vec![0.0] } else { sum }
-    }
-
     #[inline(always)]
     fn at<F: Fma>(&self, f: F, angle: f64) -> f64 {
         let x = angle.max(self.from).min(self.to) - self.origin;
@@ -70,10 +57,22 @@ impl Piece {
     }
 }
 
+/// A table as it was given. It is kept beside the pieces made of it, since no other form would read back to the same bits.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Form {
+    /// One polynomial in the angle (rad), lowest power first.
+    Polynomial(Vec<f64>),
+    /// Straight lines through (angle in degrees, value).
+    Linear(Vec<f64>, Vec<f64>),
+    /// Polynomials in the angle (rad) by piece, (from, to) in degrees.
+    Pieces(Vec<(f64, f64, Vec<f64>)>),
+}
+
 /// A value by angle of incidence.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AngleTable {
     pieces: Box<[Piece]>,
+    form: Form,
 }
 
 impl AngleTable {
@@ -82,7 +81,8 @@ impl AngleTable {
     /// # Errors
     /// No, too many or non-finite coefficients.
     pub fn polynomial(coefficients: &[f64]) -> Result<Self, LawError> {
-        Ok(Self { pieces: Box::new([Piece::new(0.0, FRAC_PI_2, 0.0, coefficients)?]) })
+        let pieces = Box::new([Piece::new(0.0, FRAC_PI_2, 0.0, coefficients)?]);
+        Ok(Self { pieces, form: Form::Polynomial(coefficients.to_vec()) })
     }
 
     /// Straight lines through (angle in degrees, value), constant beyond the ends.
@@ -100,7 +100,7 @@ impl AngleTable {
             let (from, to) = (d[0].to_radians(), d[1].to_radians());
             pieces.push(Piece::new(from, to, from, &[v[0], (v[1] - v[0]) / (to - from)])?);
         }
-        Ok(Self { pieces: pieces.into() })
+        Ok(Self { pieces: pieces.into(), form: Form::Linear(degrees.to_vec(), values.to_vec()) })
     }
 
     /// Polynomials in the angle (rad) by piece, (from, to) in degrees; the pieces join without gaps.
@@ -123,12 +123,12 @@ impl AngleTable {
             }
             pieces.push(Piece::new(from.to_radians(), to.to_radians(), 0.0, coefficients)?);
         }
-        Ok(Self { pieces: pieces.into() })
+        Ok(Self { pieces: pieces.into(), form: Form::Pieces(given.to_vec()) })
     }
 
-    /// Its pieces as [`AngleTable::piecewise_polynomial`] takes them: ends in degrees, coefficients in powers of the angle (rad).
-    pub fn pieces(&self) -> impl Iterator<Item = (f64, f64, Vec<f64>)> + '_ {
-        self.pieces.iter().map(|p| (p.from.to_degrees(), p.to.to_degrees(), p.about_zero()))
+    /// As it was given: made of that again, it has the same bits.
+    pub fn form(&self) -> &Form {
+        &self.form
     }
 
     /// Value at an angle from the surface (rad), [0, π/2].

@@ -2,6 +2,7 @@
 
 use super::{At, CurvatureRadius, CurveSpec, Key, LawSpec, NormalSpec, Value};
 use crate::material::MaterialRef;
+use crate::normal::empirical::Form;
 use serde::de::{Deserialize, Deserializer, Error as _};
 use serde::{Serialize, Serializer};
 
@@ -94,11 +95,12 @@ impl Serialize for MaterialRef {
     }
 }
 
+/// A piece of a curve.
 #[derive(Serialize)]
-struct Piece {
+struct Piece<'a> {
     from_deg: f64,
     to_deg: f64,
-    polynomial: Vec<f64>,
+    polynomial: &'a [f64],
 }
 
 impl Serialize for CurveSpec {
@@ -106,13 +108,17 @@ impl Serialize for CurveSpec {
         match self {
             Self::Constant(value) => serializer.serialize_f64(*value),
             Self::Named(name) => serializer.serialize_str(name),
-            Self::ByAngle(table) => {
-                let pieces: Vec<Piece> = table
-                    .pieces()
-                    .map(|(from_deg, to_deg, polynomial)| Piece { from_deg, to_deg, polynomial })
-                    .collect();
-                serializer.collect_map([("pieces", pieces)])
-            }
+            Self::ByAngle(table) => match table.form() {
+                Form::Polynomial(coefficients) => serializer.collect_map([("polynomial", coefficients)]),
+                Form::Linear(degrees, values) => serializer.collect_map([("angle_deg", degrees), ("value", values)]),
+                Form::Pieces(pieces) => {
+                    let pieces: Vec<Piece<'_>> = pieces
+                        .iter()
+                        .map(|(from, to, polynomial)| Piece { from_deg: *from, to_deg: *to, polynomial })
+                        .collect();
+                    serializer.collect_map([("pieces", pieces)])
+                }
+            },
         }
     }
 }
