@@ -170,7 +170,7 @@ impl Domain for Meshed {
         let Some((theta, side)) = here.exit(path) else { return Next::Clear };
         let (x, slope) = (path.at(theta), path.slope(theta));
         match self.cells.behind(&here, side, x, slope) {
-            Behind::Inside(next) => match self.cells.tetrahedron(next) {
+            Behind::Inside(next, cell) => match self.cells.tetrahedron_of(next, cell) {
                 Some(into) => Next::Edge { theta, into: self.prepared(into) },
                 None => self.look_for(theta, x, slope),
             },

@@ -10,6 +10,7 @@ mod locate;
 mod near_walls;
 mod nodes;
 mod state;
+mod strips;
 mod tetrahedron;
 
 pub(crate) use beyond::carry_spin;
@@ -26,6 +27,7 @@ use carom_cfd::{Carry, Field, Patch, PatchKind, Snapshot};
 use cut::{Cut, NONE};
 use locate::Locator;
 use nodes::Nodes;
+use strips::Strips;
 
 /// A flow on a mesh of cells.
 #[derive(Debug)]
@@ -43,6 +45,8 @@ pub struct Cells {
     state: Option<GasNodes>,
     patches: Vec<Patch>,
     plane: Option<Plane>,
+    /// Of a plane case, how tetrahedra make triangles of the plane.
+    strips: Option<Strips>,
     wedge: Option<Wedge>,
     locator: Option<Locator>,
     bounds: Bounds,
@@ -52,8 +56,8 @@ pub struct Cells {
 /// What lies behind a side of a tetrahedron.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Behind {
-    /// Another tetrahedron.
-    Inside(u32),
+    /// Another tetrahedron, and its cell.
+    Inside(u32, u32),
     /// Not known from the mesh: to be looked for.
     Unknown,
     /// A patch that ends the space: its index, and the triangle, counted over the patch.
@@ -109,7 +113,10 @@ impl Cells {
         }
         let pairs = beyond::pairs(mesh);
         let base = base_points(mesh, &cell_centres);
-        let cut = Cut::new(mesh, &base);
+        let mut cut = Cut::new(mesh, &base);
+        // values at points may differ along a column
+        let alike = matches!(fields.velocity, Some(Field::Cells { .. }));
+        let strips = plane.as_ref().filter(|_| alike).and_then(|plane| Strips::new(mesh, plane, &mut cut));
         let nodes = Nodes { mesh, cut: &cut, cell_centres: &cell_centres, face_centres: &face_centres, pairs: &pairs };
         let mut velocity = nodes.values(velocity, |carry, v: Vec3| carry.vector(v));
         if matches!(fields.velocity, Some(Field::Cells { .. })) {
@@ -145,6 +152,7 @@ impl Cells {
             state,
             patches: mesh.patches.clone(),
             plane,
+            strips,
             wedge,
             locator: None,
             bounds,
@@ -196,7 +204,7 @@ impl Cells {
 
     /// The centre of the cell of a tetrahedron, m, and the cell.
     pub(crate) fn cell_of(&self, here: &Tetrahedron) -> u32 {
-        self.cut.cell(here.id)
+        here.cell
     }
 
     fn corners(&self, tet: u32) -> ([usize; 3], usize) {
@@ -204,34 +212,59 @@ impl Cells {
         (corners, self.centre(self.cut.cell(tet) as usize))
     }
 
-    /// A tetrahedron by its number; `None` if it is flat.
+    /// A tetrahedron by its number; `None` if it is flat, or another stands for it.
     pub(crate) fn tetrahedron(&self, tet: u32) -> Option<Tetrahedron> {
-        let (corners, centre) = self.corners(tet);
+        self.tetrahedron_of(tet, self.cut.cell(tet))
+    }
+
+    /// The same of a known cell.
+    #[inline(always)]
+    pub(crate) fn tetrahedron_of(&self, tet: u32, cell: u32) -> Option<Tetrahedron> {
+        let [a, b, c] = self.cut.triangles[(tet >> 1) as usize].map(|p| p as usize);
+        let centre = self.centre(cell as usize);
         let (origin, velocity) = (self.points[centre], self.velocity[centre]);
-        let mut dual = tetrahedron::dual(corners.map(|c| sub(self.points[c], origin)))?;
-        let changes = corners.map(|c| sub(self.velocity[c], velocity));
-        let mut flat = origin;
-        let (mut at, mut changes_along) = (velocity, changes);
-        if let Some(plane) = &self.plane {
-            flat = plane.put(origin);
-            dual = dual.map(|d| plane.along(d));
-            at = plane.along(at);
-            changes_along = changes.map(|c| plane.along(c));
+        let edges = [sub(self.points[a], origin), sub(self.points[b], origin), sub(self.points[c], origin)];
+        let mut changes =
+            [sub(self.velocity[a], velocity), sub(self.velocity[b], velocity), sub(self.velocity[c], velocity)];
+        let (mut flat, mut at) = (origin, velocity);
+        let dual = match (&self.plane, &self.strips) {
+            (None, _) => tetrahedron::dual(edges)?,
+            (Some(plane), strips) => {
+                flat = plane.put(origin);
+                at = plane.along(velocity);
+                changes = changes.map(|c| plane.along(c));
+                match strips {
+                    Some(strips) => strips.dual(tet, plane, edges)?,
+                    None => tetrahedron::dual(edges)?.map(|d| plane.along(d)),
+                }
+            }
+        };
+        let mut gradient = [[0.0; 3]; 3];
+        for (row, i) in gradient.iter_mut().zip(0..3) {
+            for (g, j) in row.iter_mut().zip(0..3) {
+                *g = changes[0][i] * dual[0][j] + changes[1][i] * dual[1][j] + changes[2][i] * dual[2][j];
+            }
         }
-        let gradient = [0, 1, 2].map(|i| [0, 1, 2].map(|j| (0..3).map(|n| changes_along[n][i] * dual[n][j]).sum()));
-        Some(Tetrahedron { origin: flat, dual, velocity: at, gradient, id: tet, clear: 0.0 })
+        Some(Tetrahedron { origin: flat, dual, velocity: at, gradient, id: tet, cell, clear: 0.0 })
     }
 
     /// What is behind a side.
+    #[inline(always)]
     pub(crate) fn behind(&self, here: &Tetrahedron, side: usize, x: Vec3, slope: Vec3) -> Behind {
         if side < 3 {
             let next = self.cut.beside(here.id, side);
-            return if next == NONE { Behind::Unknown } else { Behind::Inside(next) };
-        }
-        if let Some(next) = self.cut.across(here.id) {
-            return Behind::Inside(next);
+            return if next == NONE { Behind::Unknown } else { Behind::Inside(next, here.cell) };
         }
         let face = self.cut.face(here.id) as usize;
+        if let Some((next, cell)) = self.cut.across(here.id, face) {
+            return Behind::Inside(next, cell);
+        }
+        self.behind_boundary(here, face, x, slope)
+    }
+
+    /// What is behind a face of the boundary.
+    #[inline(never)]
+    fn behind_boundary(&self, here: &Tetrahedron, face: usize, x: Vec3, slope: Vec3) -> Behind {
         let triangle = here.id >> 1;
         let Some((index, patch)) = self.patches.iter().enumerate().find(|(_, p)| p.faces.contains(&face)) else {
             return Behind::Unknown;

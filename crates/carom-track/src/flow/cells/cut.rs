@@ -93,10 +93,16 @@ impl Cut {
         self.beside[tet as usize][corner].load(Ordering::Relaxed)
     }
 
-    /// The tetrahedron across the triangle; `None` on the boundary.
+    /// Puts a tetrahedron behind a side.
+    pub fn put_beside(&mut self, tet: u32, corner: usize, next: u32) {
+        *self.beside[tet as usize][corner].get_mut() = next;
+    }
+
+    /// The tetrahedron across a triangle of a face, and its cell; `None` on the boundary.
     #[inline(always)]
-    pub fn across(&self, tet: u32) -> Option<u32> {
-        ((self.face(tet) as usize) < self.neighbour.len()).then_some(tet ^ 1)
+    pub fn across(&self, tet: u32, face: usize) -> Option<(u32, u32)> {
+        let neighbour = *self.neighbour.get(face)?;
+        Some((tet ^ 1, if tet & 1 == 0 { neighbour } else { self.owner[face] }))
     }
 
     /// The face of a tetrahedron's triangle.
@@ -182,9 +188,10 @@ mod tests {
                         assert_eq!(corners.iter().filter(|c| shared(c)).count(), 2, "{kind:?}");
                         assert!((0..3).any(|j| cut.beside(next, j) == tet), "{kind:?}");
                     }
-                    if let Some(other) = cut.across(tet) {
-                        assert_ne!(cut.cell(other) as usize, cell);
-                        assert_eq!(cut.across(other), Some(tet));
+                    let face = cut.face(tet) as usize;
+                    if let Some((other, its)) = cut.across(tet, face) {
+                        assert!(its as usize != cell && its == cut.cell(other));
+                        assert_eq!(cut.across(other, face), Some((tet, cell as u32)));
                     }
                 }
             }

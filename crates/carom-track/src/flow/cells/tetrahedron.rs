@@ -21,12 +21,14 @@ pub struct Tetrahedron {
     pub(super) gradient: [Vec3; 3],
     /// Its number.
     pub(super) id: u32,
+    /// That of its cell.
+    pub(super) cell: u32,
     /// No wall is nearer to o than this, m.
     pub(crate) clear: f64,
 }
 
 /// A ratio of volume to the product of edges below which a tetrahedron is flat: its λᵢ are noise.
-const FLAT: f64 = 1e-12;
+pub(super) const FLAT: f64 = 1e-12;
 
 impl fmt::Debug for Tetrahedron {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
@@ -35,6 +37,7 @@ impl fmt::Debug for Tetrahedron {
 }
 
 /// The vectors dual to three edges; `None` where they are flat.
+#[inline(always)]
 pub(super) fn dual(edges: [Vec3; 3]) -> Option<[Vec3; 3]> {
     let normals = [cross(edges[1], edges[2]), cross(edges[2], edges[0]), cross(edges[0], edges[1])];
     let volume = dot(edges[0], normals[0]);
@@ -50,6 +53,7 @@ impl Tetrahedron {
         velocity: [0.0; 3],
         gradient: [[0.0; 3]; 3],
         id: super::cut::NONE,
+        cell: super::cut::NONE,
         clear: 0.0,
     };
 
@@ -148,7 +152,10 @@ impl Tetrahedron {
     /// The least way from a place to a side and on to the opposite one, m: about its width there.
     pub(crate) fn room(&self) -> f64 {
         let steepest = (0..4).map(|side| dot(self.normal(side), self.normal(side))).fold(0.0, f64::max);
-        1.0 / steepest.sqrt()
+        // two corners on one column have half of its coordinate each
+        let [a, b, c] = self.dual;
+        let halved = a == b || b == c || c == a;
+        (if halved { 0.5 } else { 1.0 }) / steepest.sqrt()
     }
 }
 

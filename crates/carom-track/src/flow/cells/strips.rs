@@ -1,0 +1,190 @@
+//! Plane cases: across the plane that the fields are taken in, nothing changes, so the two triangles of a side make one.
+//!
+//! The mesh of a plane case is one cell thick. A face between two cells, or on the boundary but for the empty sides, is a strip between
+//! two columns of two points each, on which the fields are alike. So a cell is cut by its centre and its strips into as many triangles
+//! of the plane, each of them in place of two tetrahedra with the same linear field. It is known by the first tetrahedron of its strip,
+//! two of whose corners are on one column: each has half of the column's barycentric coordinate.
+
+use super::beyond::Plane;
+use super::cut::Cut;
+use super::tetrahedron::FLAT;
+use crate::vector::{Vec3, cross, dot, norm, sub};
+use carom_cfd::{Mesh, PatchKind};
+
+/// Along the plane, this share of an edge's length is none.
+const ALONG: f64 = 1e-6;
+
+/// Which tetrahedra of a plane case stand for the triangles of the plane.
+#[derive(Debug)]
+pub(super) struct Strips {
+    /// Of each triangle of the cut, which of its corners is alone on its column; [`UNUSED`] where the triangle is not used.
+    alone: Vec<u8>,
+}
+
+/// A triangle on an empty side, or the second of a strip.
+const UNUSED: u8 = 3;
+
+impl Strips {
+    /// The strips of a plane case, whose neighbours are put into the cut; `None` where a side is no strip.
+    pub fn new(mesh: &Mesh, plane: &Plane, cut: &mut Cut) -> Option<Self> {
+        let empty = empty_faces(mesh);
+        let mut column: Vec<u32> = (0..mesh.points.len() as u32).collect();
+        for face in (0..mesh.faces.len()).filter(|f| !empty[*f]) {
+            let &[a, b, c, d] = mesh.faces.get(face) else { return None };
+            let across = |p: u32, q: u32| {
+                let edge = sub(mesh.points[q as usize], mesh.points[p as usize]);
+                norm(plane.along(edge)) <= ALONG * norm(edge)
+            };
+            let pairs = match [across(a, b), across(b, c), across(c, d), across(d, a)] {
+                [true, false, true, false] => [(a, b), (c, d)],
+                [false, true, false, true] => [(b, c), (d, a)],
+                _ => return None,
+            };
+            for (p, q) in pairs {
+                for (from, to) in [(p, q), (q, p)] {
+                    let known = column[from as usize];
+                    if known != from && known != to {
+                        return None;
+                    }
+                    column[from as usize] = to;
+                }
+            }
+        }
+        // of a column's two points the one with the smaller number stands for it
+        let of = |p: u32| p.min(column[p as usize]);
+        let mut alone = vec![UNUSED; cut.triangles.len()];
+        for face in (0..mesh.faces.len()).filter(|f| !empty[*f]) {
+            let first = cut.first[face] as usize;
+            let [a, b, c] = cut.triangles[first].map(of);
+            alone[first] = match (a == b, b == c, c == a) {
+                (true, false, false) => 2,
+                (false, true, false) => 0,
+                (false, false, true) => 1,
+                _ => return None,
+            };
+        }
+        for cell in 0..mesh.cells {
+            let mut ends = Vec::new();
+            for tet in cut.of_cell(cell).filter(|tet| alone[(tet >> 1) as usize] != UNUSED) {
+                let corners = cut.triangles[(tet >> 1) as usize].map(of);
+                let single = corners[usize::from(alone[(tet >> 1) as usize])];
+                let pair = corners.into_iter().find(|c| *c != single)?;
+                ends.extend([(single, tet), (pair, tet)]);
+            }
+            ends.sort_unstable();
+            for shared in ends.chunk_by(|a, b| a.0 == b.0) {
+                let &[(end, one), (_, other)] = shared else { return None };
+                for (here, there) in [(one, other), (other, one)] {
+                    // behind the side that faces a corner lies what shares the other column
+                    let corners = cut.triangles[(here >> 1) as usize].map(of);
+                    for side in (0..3).filter(|side| corners[*side] != end) {
+                        cut.put_beside(here, side, there);
+                    }
+                }
+            }
+        }
+        Some(Self { alone })
+    }
+
+    /// The vectors dual to the corners of a tetrahedron from the cell's centre, all put into the plane; `None` where it is not used or
+    /// flat.
+    #[inline(always)]
+    pub fn dual(&self, tet: u32, plane: &Plane, edges: [Vec3; 3]) -> Option<[Vec3; 3]> {
+        let single = usize::from(self.alone[(tet >> 1) as usize]);
+        if single >= 3 {
+            return None;
+        }
+        let (p, q) = (plane.along(edges[single]), plane.along(edges[(single + 1) % 3]));
+        let (to_p, to_q) = (cross(q, plane.across), cross(plane.across, p));
+        let area = dot(p, to_p);
+        if area.abs() <= FLAT * (dot(p, p) * dot(q, q)).sqrt() {
+            return None;
+        }
+        let mut dual = [to_q.map(|c| 0.5 * c / area); 3];
+        dual[single] = to_p.map(|c| c / area);
+        Some(dual)
+    }
+}
+
+fn empty_faces(mesh: &Mesh) -> Vec<bool> {
+    let mut empty = vec![false; mesh.faces.len()];
+    for patch in mesh.patches.iter().filter(|p| p.kind == PatchKind::Empty) {
+        empty[patch.faces.clone()].fill(true);
+    }
+    empty
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{Dice, shaken, with_cell_velocity};
+    use super::super::{Cells, Cut};
+    use super::*;
+    use carom_cfd::block::Kind;
+    use carom_cfd::geometry::{base_points, cell_centres_and_volumes, face_centres_and_areas};
+    use carom_cfd::{Field, Snapshot};
+
+    /// A plane case of uneven cells with a velocity of its own in each.
+    fn plane_case() -> Snapshot {
+        let mut mesh = shaken(Kind::Hexahedra, [7, 6, 1], 0.0, 1);
+        let at = |x: Vec3| [x[0] + 0.05 * (9.0 * x[1]).sin(), x[1] + 0.04 * (7.0 * x[0]).cos(), 0.3 * x[2]];
+        for x in &mut mesh.points {
+            *x = at(*x);
+        }
+        for patch in mesh.patches.iter_mut().filter(|p| matches!(p.name.as_str(), "back" | "front")) {
+            patch.kind = PatchKind::Empty;
+        }
+        let mut snapshot = with_cell_velocity(mesh, |_| [0.0; 3]);
+        let mut dice = Dice::new(11);
+        if let Some(Field::Cells { cells, boundary }) = &mut snapshot.fields.velocity {
+            cells.iter_mut().chain(boundary).for_each(|v| *v = dice.point());
+        }
+        snapshot
+    }
+
+    #[test]
+    fn triangles_of_the_plane_have_the_field_of_the_tetrahedra_they_stand_for() {
+        let snapshot = plane_case();
+        let mesh = &snapshot.mesh;
+        let cells = Cells::new(&snapshot).unwrap();
+        assert!(cells.strips.is_some());
+        let (faces, areas) = face_centres_and_areas(&mesh.points, &mesh.faces);
+        let (centres, _) = cell_centres_and_volumes(mesh, &faces, &areas);
+        let cut = Cut::new(mesh, &base_points(mesh, &centres));
+        let whole = Cells { cut, strips: None, ..Cells::new(&snapshot).unwrap() };
+        let mut dice = Dice::new(12);
+        let mut inside = 0;
+        for _ in 0..2000 {
+            let x = dice.point();
+            let (got, want) = (cells.find(x), whole.find(x));
+            assert_eq!(got.is_nowhere(), want.is_nowhere(), "{x:?}");
+            inside += usize::from(!got.is_nowhere());
+            assert!(norm(sub(got.velocity_at(x), want.velocity_at(x))) < 1e-12, "{x:?}");
+        }
+        assert!(inside > 1500, "{inside}");
+    }
+
+    #[test]
+    fn triangles_of_the_plane_lie_beside_each_other_where_they_share_a_column() {
+        let snapshot = plane_case();
+        let cells = Cells::new(&snapshot).unwrap();
+        for cell in 0..cells.len() {
+            let used: Vec<_> = cells.cut.of_cell(cell).filter_map(|tet| cells.tetrahedron(tet)).collect();
+            assert_eq!(used.len(), 4);
+            for here in &used {
+                for side in 0..3 {
+                    let next = cells.tetrahedron(cells.cut.beside(here.id, side)).unwrap();
+                    assert!(next.cell == here.cell && next.id != here.id);
+                    // the middle of their common side, from the cell's centre to a column
+                    let corners = cells.corners(here.id).0;
+                    let end = (0..3).find(|i| here.dual[*i] != here.dual[side]).unwrap();
+                    let end = cells.flat(cells.points[corners[end]]);
+                    let middle = [0, 1, 2].map(|c| 0.5 * (end[c] + here.origin[c]));
+                    for at in [here, &next].map(|t| t.coordinates(middle)) {
+                        let least = at.into_iter().fold(f64::INFINITY, f64::min);
+                        assert!(least.abs() < 1e-12, "{at:?}");
+                    }
+                }
+            }
+        }
+    }
+}
