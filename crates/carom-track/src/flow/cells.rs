@@ -67,7 +67,7 @@ pub(crate) enum Behind {
 }
 
 /// A result that no flow can be made of.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CellsError {
     /// No velocity.
@@ -79,6 +79,12 @@ pub enum CellsError {
     /// Empty sides that are no plane.
     #[error("the empty patches are not the two sides of a plane case")]
     NotPlane,
+    /// A density that no gas has.
+    #[error("the result's density goes down to {least} kg/m3: it must be positive everywhere")]
+    Density {
+        /// The least, kg/m³.
+        least: f64,
+    },
     /// Other than two wedges.
     #[error("the mesh has {count} wedge patches: an axisymmetric case has two, at an angle below 180 degrees")]
     Wedges {
@@ -138,6 +144,10 @@ impl Cells {
             k.zip(dissipation).map(|(k, e)| k.iter().zip(&e).map(|(k, e)| [k[0].max(0.0), e[0].max(0.0)]).collect());
         let temperature = fields.temperature.as_ref().map(&scalar);
         let density = fields.density.as_ref().map(&scalar);
+        let least = density.iter().flatten().fold(f64::INFINITY, |least, d| least.min(d[0]));
+        if least <= 0.0 {
+            return Err(CellsError::Density { least });
+        }
         let state = temperature.map(|t| state::nodes(&t, density.as_deref()));
         let mut points = mesh.points.clone();
         let centres = points.len();

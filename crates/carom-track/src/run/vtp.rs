@@ -63,7 +63,7 @@ impl Cells {
     fn of_table(folder: &Path, table: usize) -> Result<Self, RunError> {
         let path = folder.join(cells_file(table));
         let cells = Self::open(&path, LAYOUTS[table].columns.len())?;
-        cells.ok_or_else(|| RunError::Gone { path })
+        cells.ok_or(RunError::Gone { path })
     }
 
     fn each(mut self, path: &Path, mut each: impl FnMut(&[Cell]) -> Result<(), RunError>) -> Result<(), RunError> {

@@ -175,3 +175,16 @@ fn distance_and_friction_of_a_wall_are_those_of_a_shear_flow() {
         assert!((local.friction_velocity / (nu * 3.0).sqrt() - 1.0).abs() < 1e-9, "{}", local.friction_velocity);
     }
 }
+
+#[test]
+fn a_density_that_is_not_positive_is_refused() {
+    let mut snapshot = with_velocity(block(Kind::Hexahedra, [3, 2, 2], |x| x), |x| x);
+    let points = snapshot.mesh.points.len();
+    let with = |odd: f64| Field::Points((0..points).map(|i| [if i == 4 { odd } else { 1.2 }]).collect());
+    snapshot.fields.density = Some(with(0.9));
+    assert!(Cells::new(&snapshot).is_ok());
+    for odd in [0.0, -0.1] {
+        snapshot.fields.density = Some(with(odd));
+        assert_eq!(Cells::new(&snapshot).unwrap_err(), CellsError::Density { least: odd });
+    }
+}
