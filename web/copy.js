@@ -36,8 +36,7 @@ function python(law, s) {
 
 function cProgram(law, m) {
   const text = `[law.wall]\n${toml(law)}`.split("\n").filter(Boolean).map((l) => `    ${JSON.stringify(`${l}\n`)}`).join("\n");
-  const angle = (m.angle * Math.PI) / 180;
-  const n = m.angle === 90 ? m.speed : m.speed * Math.sin(angle), t = m.angle === 90 ? 0 : m.speed * Math.cos(angle);
+  const [n, t] = KERNEL.components(m);
   return `/* cc impact.c $(pkg-config --cflags --libs carom) -o impact */
 #include <carom.h>
 

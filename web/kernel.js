@@ -49,6 +49,11 @@ class Kernel {
     return this.numbers(this.w.quantity(["diameter", "speed", "angle", "spin"].indexOf(kind)))[0];
   }
 
+  /** Normal and tangential speed. */
+  components(m) {
+    return this.numbers(this.w.components(m.speed, m.angle));
+  }
+
   law(slot, text, oblique) {
     this.give(text);
     if (!this.w.law(slot, oblique ? 1 : 0)) throw new Refused(this.said());

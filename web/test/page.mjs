@@ -1,12 +1,12 @@
-// The explorer in Chromium against the command. node page.mjs PAGE.html CAROM PICTURES
+// The explorer in Chromium against the command. node page.mjs PAGE.html CAROM LIBCAROM_C.a CAROM.H PICTURES
 import { execFileSync } from "node:child_process";
 import { mkdirSync, readFileSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
-import { join, resolve } from "node:path";
+import { dirname, join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { chromium } from "./chromium.mjs";
 
-const [file, carom, pictures] = process.argv.slice(2).map((p) => resolve(p));
+const [file, carom, library, header, pictures] = process.argv.slice(2).map((p) => resolve(p));
 const url = pathToFileURL(file).href;
 mkdirSync(pictures, { recursive: true });
 const work = mkdtempSync(join(tmpdir(), "explorer-test-"));
@@ -117,9 +117,13 @@ try {
   check(history.length === moments.length && history.length > 3600 && history.every((v, i) => v === moments[i]), "the contact in time, in the worker");
   numbers += history.length;
   check(await page.eval("!document.getElementById('history-figure').hidden && document.querySelector('#history svg') !== null"), "the contact's picture");
-  check((await page.eval("copyText('python', SHOWN.law, state)")).includes("carom.WallLaw("), "Python");
-  check((await page.eval("copyText('c', SHOWN.law, state)")).includes("carom_law_from_text"), "C");
+  // by the module itself only where it is installed; its keywords are the law file's keys
+  writeFileSync(join(work, "impact.py"), await page.eval("copyText('python', SHOWN.law, state)"));
+  execFileSync("python3", ["-c", "import ast, sys; call = ast.parse(open(sys.argv[1]).read()).body[1].value; sys.exit([k.arg for k in call.keywords] != sys.argv[2:])", join(work, "impact.py"), ...await page.eval("Object.keys(SHOWN.law)")]);
   writeFileSync(join(work, "impact.c"), await page.eval("copyText('c', SHOWN.law, state)"));
+  execFileSync("cc", ["-Wall", "-Werror", `-I${dirname(header)}`, "impact.c", library, "-lm", "-lpthread", "-ldl", "-o", "impact"], { cwd: work });
+  const byC = execFileSync(join(work, "impact"), { encoding: "utf8" });
+  check(Number(byC.split("e = ")[1]) === told.restitution, `the copied C program: ${byC}`);
 
   // the map, cell by cell
   await page.eval("location.hash = '#sphere=copper&surface=silicon&normal=eap&friction=0.2&diameter=30um&speed=2m/s&angle=60&spin=0&over=speed&range=0.1..30&quantity=restitution'");

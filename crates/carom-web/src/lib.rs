@@ -146,6 +146,13 @@ pub extern "C" fn quantity(kind: u32) -> u32 {
     })
 }
 
+/// Normal and tangential speed of a speed (m/s) at an angle (degrees from the surface).
+#[unsafe(no_mangle)]
+pub extern "C" fn components(speed: f64, angle: f64) -> u32 {
+    let (normal, tangential) = carom::impact::components(speed, angle);
+    with(|page| page.answer(Ok(vec![normal, tangential])))
+}
+
 /// One impact in three dimensions, of 18 numbers: diameter, density (NaN: the law's own), velocity, spin, normal, velocity of the wall (3
 /// each), draws (4). Out: fate (1 rebound, 0 capture), velocity, spin, restitution, impulse ratio, tangential restitution, contact, the
 /// eight shares of energy, bits of validity.
