@@ -91,6 +91,10 @@ cp "$here/case/DATA/carom-walls.txt" "$table"
 sed -i 's/"copper"/"coper"/' "$case/DATA/walls.toml"
 stops unknown-material "walls.toml:2:10: unknown material 'coper'; did you mean copper?"
 cp "$here/case/DATA/walls.toml" "$case/DATA/walls.toml"
+ln -s /dev/full "$work/full.csv"
+sed -i "s|^record .*|record $work/full|" "$table"
+stops full-disk "carom: the record of impacts $work/full.csv cannot be written: No space left on device"
+cp "$here/case/DATA/carom-walls.txt" "$table"
 rm "$CAROM/lib/libcarom.a"
 if run no-library; then
     echo "a missing library did not stop the run" >&2

@@ -12,6 +12,7 @@
  * Files are looked for beside the table. */
 #include "carom_walls.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -43,11 +44,28 @@ static int refuse(reader *r, const char *format, ...)
     return -1;
 }
 
+/* What stands after the folder in a path, as Unix or Windows writes it: /cases/walls.toml, C:\cases\walls.toml */
+static const char *after_folder(const char *path)
+{
+    const char *after = path[0] != '\0' && path[1] == ':' ? path + 2 : path, *c;
+
+    for (c = after; *c != '\0'; c++) {
+        if (*c == '/' || *c == '\\') {
+            after = c + 1;
+        }
+    }
+    return after;
+}
+
+static int is_absolute(const char *path)
+{
+    return path[0] == '/' || path[0] == '\\' || (isalpha((unsigned char)path[0]) && path[1] == ':');
+}
+
 /* A file named in the table, from where the table is. */
 static int beside(reader *r, const char *file, char *path, size_t room)
 {
-    const char *slash = strrchr(r->walls->file, '/');
-    const int folder = file[0] == '/' || slash == NULL ? 0 : (int)(slash - r->walls->file) + 1;
+    const int folder = is_absolute(file) ? 0 : (int)(after_folder(r->walls->file) - r->walls->file);
     const int used = snprintf(path, room, "%.*s%s", folder, r->walls->file, file);
 
     return used < 0 || (size_t)used >= room ? refuse(r, "the path of '%s' is too long", file) : 0;
@@ -82,7 +100,9 @@ static int law(reader *r, carom_wall_zone *zone, const char *word)
     char file[1024], path[2100];
     const char *colon = strrchr(word, ':');
 
-    if (colon == NULL || colon == word || colon[1] == '\0' || (size_t)(colon - word) >= sizeof file) {
+    /* the colon of a drive is no law's: C:\cases\walls.toml */
+    if (colon == NULL || colon == word || colon[1] == '\0' || after_folder(colon + 1) != colon + 1
+        || (size_t)(colon - word) >= sizeof file) {
         return refuse(r, "zone %s: '%s' is no law; FILE:NAME, trap or escape is wanted, such as walls.toml:glass",
                       zone->name, word);
     }

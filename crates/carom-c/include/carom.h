@@ -222,6 +222,12 @@ void carom_law_free(struct carom_law *law);
 // `law` is NULL or a law that was not freed.
 double carom_law_density(const struct carom_law *law);
 
+// Whether the law scatters, so that its impacts depend on `draws`: 1, or 0 for laws that do not look at them; -1 for NULL.
+//
+// # Safety
+// `law` is NULL or a law that was not freed.
+int32_t carom_law_scatters(const struct carom_law *law);
+
 // One impact.
 //
 // Answers CAROM_STATUS_NOT_APPROACHING or CAROM_STATUS_BAD_IMPACT where there is none; `out` then says CAROM_FATE_UNMET and holds velocity and spin as they

@@ -92,6 +92,16 @@ pub unsafe extern "C" fn carom_law_density(law: *const Law) -> f64 {
     unsafe { law.as_ref() }.map_or(f64::NAN, |law| law.0.density())
 }
 
+/// Whether the law scatters, so that its impacts depend on `draws`: 1, or 0 for laws that do not look at them; -1 for NULL.
+///
+/// # Safety
+/// `law` is NULL or a law that was not freed.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carom_law_scatters(law: *const Law) -> i32 {
+    // SAFETY: NULL or a law, as the caller promises.
+    unsafe { law.as_ref() }.map_or(-1, |law| i32::from(law.0.scatter().is_some()))
+}
+
 /// # Safety
 /// `out` is NULL or can be written to.
 unsafe fn hand_out(read: impl FnOnce() -> Result<Law, Refusal>, out: *mut *mut Law) -> Status {

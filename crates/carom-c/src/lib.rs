@@ -19,6 +19,6 @@ mod status;
 pub use calls::{carom_capture_velocity, carom_impact, carom_impact_batch};
 pub use columns::carom_impact_columns;
 pub use impact::{Contact, Energy, Fate, ImpactIn, ImpactOut};
-pub use law::{Law, carom_law_density, carom_law_free, carom_law_from_file, carom_law_from_text};
+pub use law::{Law, carom_law_density, carom_law_free, carom_law_from_file, carom_law_from_text, carom_law_scatters};
 pub use names::{carom_contact_name, carom_fate_name, carom_validity_meaning, carom_validity_name, carom_version};
 pub use status::{Status, carom_last_error};

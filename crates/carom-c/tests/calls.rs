@@ -184,6 +184,7 @@ fn null_pointers_and_bad_numbers_are_refused() {
         }
         assert_eq!(carom_capture_velocity(law, -1.0, 0.0, 1.0, &raw mut speed), Status::BadImpact);
         assert!(carom_law_density(null()).is_nan());
+        assert_eq!((carom_law_scatters(law), carom_law_scatters(null())), (0, -1));
         carom_law_free(null_mut());
 
         for wrong in [

@@ -5,6 +5,7 @@
 
 #include "cs_defs.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -31,6 +32,7 @@ static carom_walls walls;
 static carom_wall_zone **by_zone; /* by the boundary zone's id; NULL where the table says nothing */
 static cs_field_t *deposit, *impacts;
 static FILE *record;
+static char record_file[300];
 
 static void stop(const char *message)
 {
@@ -109,18 +111,26 @@ static void match_zones(void)
     }
 }
 
+/* A record with a hole in it is no record: a disk that is full ends the run. */
+static void record_fails(void)
+{
+    char message[600];
+
+    snprintf(message, sizeof message, "the record of impacts %s cannot be written: %s", record_file, strerror(errno));
+    stop(message);
+}
+
 static void open_record(void)
 {
-    char name[300];
-
     if (cs_glob_n_ranks > 1) {
-        snprintf(name, sizeof name, "%s-%d.csv", walls.record, cs_glob_rank_id);
+        snprintf(record_file, sizeof record_file, "%s-%d.csv", walls.record, cs_glob_rank_id);
     } else {
-        snprintf(name, sizeof name, "%s.csv", walls.record);
+        snprintf(record_file, sizeof record_file, "%s.csv", walls.record);
     }
-    record = fopen(name, "w");
+    record = fopen(record_file, "w");
     if (record == NULL) {
-        stop("the record of impacts cannot be written");
+        record_fails();
+        return;
     }
     fprintf(record, "zone,fate,time,mass,x,y,z,diameter,density,vx_in,vy_in,vz_in,wx_in,wy_in,wz_in,nx,ny,nz,ux,uy,uz,"
                     "vx,vy,vz,wx,wy,wz\n");
@@ -150,7 +160,7 @@ static carom_impact_in impact_of(cs_lagr_particle_set_t *particles, cs_lnum_t p_
     const cs_real_t *velocity = cs_lagr_particles_attr_const(particles, p_id, CS_LAGR_VELOCITY);
     const cs_real_t *spin = spin_of(particles, p_id);
     const double sign = cs_math_3_dot_product(path, face_norm) > 0.0 ? -1.0 : 1.0;
-    double numbers[7];
+    double numbers[8];
     carom_impact_in in = {0};
 
     in.size = sizeof in;
@@ -166,7 +176,11 @@ static carom_impact_in impact_of(cs_lagr_particle_set_t *particles, cs_lnum_t p_
         numbers[3 + k] = at[k];
     }
     numbers[6] = cs_glob_time_step->t_cur;
-    carom_walls_draw(0, numbers, 7, in.draws);
+    /* what code_saturne 6.0 gives each particle for life; two that hit the same place at the same time draw differently */
+    numbers[7] = particles->p_am->size[CS_LAGR_RANDOM_VALUE] > 0
+                     ? cs_lagr_particles_get_real(particles, p_id, CS_LAGR_RANDOM_VALUE)
+                     : 0.0;
+    carom_walls_draw(0, numbers, 8, in.draws);
     return in;
 }
 
@@ -257,6 +271,9 @@ static void write_down(cs_lagr_particle_set_t *particles, cs_lnum_t p_id, const 
         fprintf(record, ",%.17g,%.17g,%.17g", vectors[i][0], vectors[i][1], vectors[i][2]);
     }
     fputc('\n', record);
+    if (ferror(record)) {
+        record_fails();
+    }
 }
 
 void cs_lagr_user_boundary_interaction(cs_lagr_particle_set_t *particles, cs_lnum_t p_id, cs_lnum_t face_id,
@@ -327,7 +344,10 @@ void carom_lagr_report(void)
                       (unsigned long long)counts[1], captured);
     }
     if (record != NULL) {
-        fclose(record);
+        /* what the buffer still holds is written here */
+        if (fclose(record) != 0) {
+            record_fails();
+        }
         record = NULL;
     }
     carom_walls_free(&walls);

@@ -392,6 +392,17 @@ static void mistakes(void)
     STOPS(carom_reload, "deposit mass 1 needs 3 user-defined memories; the case has 2");
     table("# nothing\n");
     STOPS(carom_reload, "table.txt: no zone is given");
+    /* paths as Windows writes them: a drive's colon is no law's, and beside the table is behind the last back slash */
+    table("zone 5 floor C:\\cases\\walls.toml\n");
+    STOPS(carom_reload, "'C:\\cases\\walls.toml' is no law; FILE:NAME, trap or escape is wanted");
+    table("zone 5 floor C:\\cases\\walls.toml:glass\n");
+    STOPS(carom_reload, "zone floor: C:\\cases\\walls.toml: No such file or directory");
+    table("zone 5 floor walls.toml:glass\n");
+    if (rename("table.txt", "C:\\cases\\table.txt") == 0) {
+        setenv("CAROM_WALLS", "C:\\cases\\table.txt", 1);
+    }
+    STOPS(carom_reload, "zone floor: C:\\cases\\walls.toml: No such file or directory");
+    remove("C:\\cases\\table.txt");
     setenv("CAROM_WALLS", "no-table.txt", 1);
     STOPS(carom_reload, "no-table.txt: the table of zones cannot be opened");
     table("zone 5 floor walls.toml:glass\n");

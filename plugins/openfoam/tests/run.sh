@@ -89,6 +89,38 @@ diff <(counts ../serial/0.2/$properties | grep -v mass) <(counts processor1/0.2/
     fail "two ranks that were restarted do not count like one"
 echo "two ranks count as one, restarted or not"
 
+new_case four
+set_entry system/decomposeParDict numberOfSubdomains 4
+set_entry system/decomposeParDict simpleCoeffs.n "(4 1 1)"
+quietly log.decompose decomposePar
+quietly log mpirun --oversubscribe -np 4 "$solver" -parallel
+diff <(counts ../serial/0.2/$properties | grep -v mass) <(counts processor3/0.2/$properties | grep -v mass) ||
+    fail "four ranks do not count like one"
+
+new_case two-then-three
+quietly log.decompose decomposePar
+set_entry system/controlDict endTime 0.1
+quietly log.first mpirun --oversubscribe -np 2 "$solver" -parallel
+quietly log.reconstruct reconstructPar
+rm -r processor?
+set_entry system/controlDict endTime 0.2
+set_entry system/decomposeParDict numberOfSubdomains 3
+set_entry system/decomposeParDict simpleCoeffs.n "(3 1 1)"
+quietly log.decompose3 decomposePar -time 0.1 -copyUniform
+quietly log.second mpirun --oversubscribe -np 3 "$solver" -parallel
+diff <(counts ../serial/0.2/$properties | grep -v mass) <(counts processor2/0.2/$properties | grep -v mass) ||
+    fail "two ranks that went on as three do not count like one"
+echo "four ranks count as one, and two that go on as three"
+
+# --- a record that cannot be written ends the run -------------------------------------------------------------------
+
+new_case full
+mkdir -p $impacts/0
+ln -s /dev/full $impacts/0/impacts.csv
+if "$solver" >log 2>&1; then fail "a full disk did not end the run"; fi
+grep -q "Cannot write .*/impacts.csv.* (logImpacts)" log || { tail -20 log >&2; fail "a full disk is not named"; }
+echo "a record on a full disk ends the run"
+
 # --- a run that was stopped goes on ---------------------------------------------------------------------------------
 
 new_case restarted

@@ -213,6 +213,7 @@ int main(void)
         return EXIT_FAILURE;
     }
     EXPECT(carom_law_density(law) > 8000.0);
+    EXPECT(carom_law_scatters(law) == 0 && carom_law_scatters(NULL) == -1);
     rebounds_and_captures(law);
     refusals(law);
     columns(law);

@@ -29,28 +29,6 @@ Foam::string contents(const Foam::dictionary& entry, const Foam::string& file)
     return text.str();
 }
 
-//- Whether the law scatters: those that do refuse draws outside [0, 1), the others do not look at them
-bool scatters(const carom_law* law)
-{
-    carom_impact_in in = Foam::caromLaw::input();
-    in.diameter = 1e-4;
-    in.density = 1000;
-    in.velocity[0] = 1;
-    in.velocity[1] = -1;
-    in.normal[1] = 1;
-    in.draws[0] = -1;
-
-    carom_impact_out out;
-    out.size = sizeof(out);
-    if (carom_impact(law, &in, &out) == CAROM_STATUS_OK)
-    {
-        return false;
-    }
-
-    in.draws[0] = 0.5;
-    return carom_impact(law, &in, &out) == CAROM_STATUS_OK;
-}
-
 const char* orNull(const Foam::string& text)
 {
     return text.empty() ? nullptr : text.c_str();
@@ -106,7 +84,7 @@ Foam::caromLaw::caromLaw(const entry& patch, const fileName& materials, const fi
     }
 
     law_.reset(static_cast<const carom_law*>(law), [law](const carom_law*) { carom_law_free(law); });
-    draws_ = scatters(law) ? sizeof(carom_impact_in().draws)/sizeof(double) : 0;
+    draws_ = carom_law_scatters(law) == 1 ? sizeof(carom_impact_in().draws)/sizeof(double) : 0;
 }
 
 

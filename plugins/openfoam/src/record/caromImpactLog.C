@@ -28,18 +28,32 @@ Foam::caromImpactLog::caromImpactLog(const Time& time, const word& cloudName)
     mkDir(dir);
 
     const word rank(Pstream::parRun() ? "_processor" + Foam::name(Pstream::myProcNo()) : "");
-    const fileName path(dir/("impacts" + rank + ".csv"));
+    path_ = dir/("impacts" + rank + ".csv");
 
-    file_.open(path.c_str());
-    if (!file_)
-    {
-        FatalErrorInFunction << "Cannot write " << path << " (logImpacts)" << exit(FatalError);
-    }
+    file_.open(path_.c_str());
+    check();
 
     file_.precision(std::numeric_limits<double>::max_digits10);
     file_
         << "time,patch,x,y,z,diameter,density,vx,vy,vz,wx,wy,wz,nx,ny,nz,ux,uy,uz,draw0,draw1,draw2,draw3,"
         << "fate,vx_out,vy_out,vz_out,wx_out,wy_out,wz_out,restitution,impulse_ratio\n";
+}
+
+
+Foam::caromImpactLog::~caromImpactLog()
+{
+    // what the buffer still holds is written here
+    file_.close();
+    check();
+}
+
+
+void Foam::caromImpactLog::check() const
+{
+    if (!file_)
+    {
+        FatalErrorInFunction << "Cannot write " << path_ << " (logImpacts)" << exit(FatalError);
+    }
 }
 
 
@@ -68,4 +82,5 @@ void Foam::caromImpactLog::write
     write3(file_, after);
     write3(file_, out.spin);
     file_ << ',' << out.restitution << ',' << out.impulse_ratio << '\n';
+    check();
 }
