@@ -112,6 +112,19 @@ fn a_text_with_one_law_needs_no_name() {
 }
 
 #[test]
+fn a_law_says_whether_it_scatters() {
+    for (angle, scatters) in [("0 deg", 0), ("5 deg", 1)] {
+        let text = format!("normal = \"constant\"\nrestitution = 0.8\nfriction = 0.2\nroughness_angle = \"{angle}\"\n");
+        let law = law(&text, None).expect("a law");
+        // SAFETY: a law that was not freed.
+        unsafe {
+            assert_eq!(carom_law_scatters(law), scatters, "{angle}");
+            carom_law_free(law);
+        }
+    }
+}
+
+#[test]
 fn bad_laws_are_shown_at_their_line() {
     let refused = |text: &str, name| law(text, name).expect_err("it is refused");
     let (status, said) =
