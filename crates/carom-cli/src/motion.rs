@@ -98,10 +98,7 @@ impl Motion {
 
     /// Likewise, with the draws of a wall that scatters.
     pub fn meet_drawn(&self, wall: &WallLaw, draws: [f64; 4]) -> Result<Met, ImpactError> {
-        let (normal, tangential) = self.components();
-        let mut impact = Impact::new(self.diameter, [tangential, -normal, 0.0], [0.0, 1.0, 0.0]);
-        impact.spin = [0.0, 0.0, -self.spin];
-        impact.draws = draws;
+        let impact = Impact { draws, ..Impact::in_plane(self.diameter, self.speed, self.angle, self.spin) };
         Ok(Met::from(wall.impact(&impact)?))
     }
 }

@@ -2,41 +2,16 @@
 //!
 //! In a laminar channel of 10 mm at 0.1 m/s with weight, and in elastic boxes of still air, where spheres hit walls over and over.
 
+mod common;
+
 use carom_track::domain::{AnyDomain, Wall};
 use carom_track::dynamics::Dynamics;
 use carom_track::flow::{Channel, Flow, Fluid, Profile};
 use carom_track::force::{Drag, Forces, Slip};
 use carom_track::geometry::{Plane, Room, Shape};
-use carom_track::record::{End, ImpactRecord, Sink};
 use carom_track::tracker::{Behavior, Particle, Settings, Tracker};
+use common::{Count, processor};
 use std::time::Instant;
-
-#[derive(Default)]
-struct Count {
-    impacts: u64,
-    steps: u64,
-}
-
-impl Sink for Count {
-    fn start(&mut self, _: &Particle) -> bool {
-        false
-    }
-    fn impact(&mut self, _: &ImpactRecord) {
-        self.impacts += 1;
-    }
-    fn contact_ended(&mut self, _: &ImpactRecord) {}
-    fn point(&mut self, _: u64, _: f64, _: [f64; 3], _: [f64; 3], _: [f64; 3]) {}
-    fn end(&mut self, end: &End) {
-        self.steps += end.steps;
-    }
-}
-
-/// The thread's own processor time, s; the clock's where it is not told.
-fn processor(begin: Instant) -> f64 {
-    let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
-    let nanoseconds = told.and_then(|t| t.split_whitespace().next()?.parse::<f64>().ok());
-    nanoseconds.map_or_else(|| begin.elapsed().as_secs_f64(), |n| n * 1e-9)
-}
 
 struct Case {
     name: &'static str,
@@ -87,7 +62,7 @@ fn main() {
         let mut start = (0..*spheres).map(|n| Particle::sphere(n, *diameter, 1000.0, *at, velocity));
         let (mut count, before) = (Count::default(), processor(begin));
         tracker.run(&mut start, &mut count).expect("a behavior for each wall");
-        let time = processor(begin) - before;
+        let time = 1e-9 * (processor(begin) - before);
         let each = |n: u64| n as f64 / *spheres as f64;
         println!(
             "{name:22} {time:7.3} s for {spheres} spheres and {until} s: {:8.3} ms per sphere and s, {:9.1} steps and {:7.2} impacts each, {:.0} ns a step",

@@ -3,6 +3,8 @@
 //! The step of `examples/cfd/pitz-daily`, a plane case, and a box of 20³ cells with a vortex, between elastic walls. Printed is the least
 //! processor time of several rounds.
 
+mod common;
+
 use carom_cfd::block::{Kind, block};
 use carom_cfd::{Field, Fields, Snapshot};
 use carom_track::Case;
@@ -10,41 +12,13 @@ use carom_track::domain::{AnyDomain, ContactAt, Wall};
 use carom_track::dynamics::Dynamics;
 use carom_track::flow::{Cells, Flow};
 use carom_track::geometry::{Room, Shape};
-use carom_track::random::{Purpose, Stream};
-use carom_track::record::{End, ImpactRecord, Sink};
 use carom_track::tracker::{Behavior, Particle, Settings, Tracker};
+use common::{Count, particle, processor};
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
 const ROUNDS: usize = 5;
-
-#[derive(Default)]
-struct Count {
-    impacts: u64,
-    steps: u64,
-    flown: f64,
-}
-
-impl Sink for Count {
-    fn start(&mut self, _: &Particle) -> bool {
-        false
-    }
-    fn impact(&mut self, _: &ImpactRecord) {
-        self.impacts += 1;
-    }
-    fn point(&mut self, _: u64, _: f64, _: [f64; 3], _: [f64; 3], _: [f64; 3]) {}
-    fn end(&mut self, end: &End) {
-        self.steps += end.steps;
-        self.flown += end.time - end.particle.time;
-    }
-}
-
-/// Processor time of this thread, ns, where the system tells it; else the clock.
-fn processor(begin: Instant) -> f64 {
-    let stat = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
-    stat.split(' ').next().and_then(|n| n.parse().ok()).unwrap_or_else(|| begin.elapsed().as_nanos() as f64)
-}
 
 fn time(name: &str, mut run: impl FnMut(&mut Count)) {
     let (begin, mut least, mut count) = (Instant::now(), f64::INFINITY, Count::default());
@@ -54,7 +28,7 @@ fn time(name: &str, mut run: impl FnMut(&mut Count)) {
         run(&mut count);
         least = least.min(processor(begin) - before);
     }
-    let Count { impacts, steps, flown } = count;
+    let Count { impacts, steps, flown, .. } = count;
     println!(
         "{name}: {impacts} impacts, {steps} steps; {:.0} ns a sphere and ms, {:.0} ns a step",
         least / (1e3 * flown),
@@ -104,23 +78,6 @@ fn vortex() {
     time("20^3 box", |count| {
         tracker.run(&mut particles.iter().copied(), count).expect("a behavior for each wall");
     });
-}
-
-fn particle(number: u64) -> Particle {
-    let mut draws = Stream::new(1, number, Purpose::Injection, 0);
-    let place: [f64; 3] = draws.uniforms();
-    let way: [f64; 3] = draws.uniforms();
-    Particle {
-        number,
-        injection: 0,
-        diameter: (60.0 + 60.0 * draws.uniform()) * 1e-6,
-        density: 2500.0,
-        weight: 1.0,
-        time: 0.0,
-        position: place.map(|u| 1e-3 + 18e-3 * u),
-        velocity: way.map(|u| 8.0 * u - 4.0),
-        spin: [0.0; 3],
-    }
 }
 
 fn main() {

@@ -2,56 +2,18 @@
 //!
 //! Reported per particle; a fiftieth of it is the time per particle and millisecond.
 
-use carom::random::{Purpose, Stream};
+mod common;
+
 use carom_track::domain::{AnyDomain, ContactAt, Wall};
 use carom_track::dynamics::Dynamics;
 use carom_track::flow::Flow;
 use carom_track::force::{Drag, Forces};
 use carom_track::geometry::{Room, Shape};
-use carom_track::record::{End, ImpactRecord, Sink};
 use carom_track::tracker::{Behavior, Particle, Settings, SettleHeight, Tracker};
+use common::{Count, particle};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
 const PARTICLES: u64 = 4096;
-
-#[derive(Default)]
-struct Count {
-    impacts: u64,
-    ends: u64,
-    steps: u64,
-}
-
-impl Sink for Count {
-    fn start(&mut self, _: &Particle) -> bool {
-        false
-    }
-    fn impact(&mut self, _: &ImpactRecord) {
-        self.impacts += 1;
-    }
-    fn contact_ended(&mut self, _: &ImpactRecord) {}
-    fn point(&mut self, _: u64, _: f64, _: [f64; 3], _: [f64; 3], _: [f64; 3]) {}
-    fn end(&mut self, end: &End) {
-        self.ends += 1;
-        self.steps += end.steps;
-    }
-}
-
-fn particle(number: u64) -> Particle {
-    let mut draws = Stream::new(1, number, Purpose::Injection, 0);
-    let place: [f64; 3] = draws.uniforms();
-    let way: [f64; 3] = draws.uniforms();
-    Particle {
-        number,
-        injection: 0,
-        diameter: (60.0 + 60.0 * draws.uniform()) * 1e-6,
-        density: 2500.0,
-        weight: 1.0,
-        time: 0.0,
-        position: place.map(|u| 1e-3 + 18e-3 * u),
-        velocity: way.map(|u| 8.0 * u - 4.0),
-        spin: [0.0; 3],
-    }
-}
 
 fn closed_box(c: &mut Criterion) {
     let room = Shape::Room(Room { min: [0.0; 3], max: [0.02; 3] });

@@ -4,14 +4,16 @@
 //! building a mesh of a million triangles; `-- vessel N` flies spheres for N steps in closed vessels of triangles, and none may be
 //! outside at any impact or end.
 
+mod common;
+
 use carom_track::domain::{AnyDomain, ContactAt, Wall};
 use carom_track::dynamics::Dynamics;
 use carom_track::flow::Flow;
 use carom_track::force::{Drag, Forces};
 use carom_track::geometry::{Cylinder, Mesh, Room, Shape, Triangle};
-use carom_track::random::{Purpose, Stream};
 use carom_track::record::{End, ImpactRecord, Sink};
 use carom_track::tracker::{Behavior, Particle, Settings, SettleHeight, Tracker};
+use common::{particle, processor};
 use std::time::Instant;
 
 const PARTICLES: u64 = 4096;
@@ -37,23 +39,6 @@ impl Sink for Count {
     fn end(&mut self, end: &End) {
         self.steps += end.steps;
         self.outside += u64::from(!end.position.iter().all(|c| (0.0..=SIDE).contains(c)));
-    }
-}
-
-fn particle(number: u64) -> Particle {
-    let mut draws = Stream::new(1, number, Purpose::Injection, 0);
-    let place: [f64; 3] = draws.uniforms();
-    let way: [f64; 3] = draws.uniforms();
-    Particle {
-        number,
-        injection: 0,
-        diameter: (60.0 + 60.0 * draws.uniform()) * 1e-6,
-        density: 2500.0,
-        weight: 1.0,
-        time: 0.0,
-        position: place.map(|u| 1e-3 + 18e-3 * u),
-        velocity: way.map(|u| 8.0 * u - 4.0),
-        spin: [0.0; 3],
     }
 }
 
@@ -95,12 +80,6 @@ fn scattered(n: usize) -> Shape {
         [[0.0, 0.0, z], [0.01, 0.001 * f64::from(i), z], [0.0, 0.01, z - 0.001]]
     }));
     Shape::Mesh(Mesh::new(&all).expect("triangles"))
-}
-
-/// Processor time of this thread, ns, where the system tells it; else the clock.
-fn processor(begin: Instant) -> f64 {
-    let stat = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
-    stat.split(' ').next().and_then(|n| n.parse().ok()).unwrap_or_else(|| begin.elapsed().as_nanos() as f64)
 }
 
 fn build() {

@@ -56,28 +56,9 @@ impl Swept {
     }
 }
 
-/// Equal ratios, or equal steps; both ends exact. The command's points, to the bit.
-pub fn points(count: usize, from: f64, to: f64, linear: bool) -> Vec<f64> {
-    let last = count - 1;
-    let between = |i: usize| {
-        let share = i as f64 / last as f64;
-        if linear { from + share * (to - from) } else { from * math::pow(to / from, share) }
-    };
-    (0..count)
-        .map(|i| match i {
-            0 => from,
-            i if i == last => to,
-            i => between(i),
-        })
-        .collect()
-}
-
 impl Motion {
     fn impact(&self) -> Impact {
-        let (normal, tangential) = components(self.speed, self.angle);
-        let mut impact = Impact::new(self.diameter, [tangential, -normal, 0.0], [0.0, 1.0, 0.0]);
-        impact.spin = [0.0, 0.0, -self.spin];
-        impact
+        Impact::in_plane(self.diameter, self.speed, self.angle, self.spin)
     }
 }
 
@@ -271,14 +252,6 @@ mod tests {
         assert_eq!([row[2], row[3], row[4], row[5]], [out.restitution, out.velocity[1], out.velocity[0], -out.spin[2]]);
         let shares: f64 = row[10..18].iter().sum();
         assert!((shares - 1.0).abs() < 1e-12, "{shares}");
-    }
-
-    #[test]
-    fn points_have_exact_ends() {
-        assert_eq!(points(3, 1.0, 3.0, true), [1.0, 2.0, 3.0]);
-        let ratios = points(3, 0.1, 10.0, false);
-        assert_eq!((ratios[0], ratios[2]), (0.1, 10.0));
-        assert!((ratios[1] - 1.0).abs() < 1e-15);
     }
 
     #[test]

@@ -12,6 +12,7 @@ mod words;
 
 pub use answers::{COLUMNS, Motion, Slot, Swept};
 
+use carom::study::{ratios, steps};
 use std::cell::RefCell;
 
 /// Laws at once.
@@ -184,7 +185,10 @@ pub extern "C" fn sweep(
         let motion = Motion { diameter, speed, angle, spin };
         let run = |law: &Slot| {
             let swept = Swept::of(what).ok_or("what runs is a speed, a diameter or an angle")?;
-            law.sweep(swept, &answers::points(count.clamp(2, MOST), from, to, linear != 0), &motion)
+            {
+                let along = if linear != 0 { steps } else { ratios };
+                law.sweep(swept, &along(from, to, count.clamp(2, MOST)), &motion)
+            }
         };
         let found = page.slot(slot).and_then(run);
         page.answer(found)
@@ -207,8 +211,8 @@ pub extern "C" fn map(
 ) -> u32 {
     with(|page| {
         let run = |law: &Slot| {
-            let speeds = answers::points(columns.clamp(2, 1000), slowest, fastest, false);
-            let diameters = answers::points(rows.clamp(2, 1000), smallest, largest, false);
+            let speeds = ratios(slowest, fastest, columns.clamp(2, 1000));
+            let diameters = ratios(smallest, largest, rows.clamp(2, 1000));
             law.map(&speeds, &diameters, angle, spin)
         };
         let found = page.slot(slot).and_then(run);

@@ -32,6 +32,13 @@ impl Impact {
     pub fn new(diameter: f64, velocity: Vec3, normal: Vec3) -> Self {
         Self { diameter, density: None, velocity, spin: [0.0; 3], normal, wall_velocity: [0.0; 3], draws: [0.5; 4] }
     }
+
+    /// Likewise, in the plane: on a wall at y = 0 with the sphere above it moving along +x, at a speed (m/s) and an angle ([`components`]),
+    /// with a spin (rad/s) that is positive when it rolls forward.
+    pub fn in_plane(diameter: f64, speed: f64, angle_deg: f64, spin: f64) -> Self {
+        let (normal, tangential) = components(speed, angle_deg);
+        Self { spin: [0.0, 0.0, -spin], ..Self::new(diameter, [tangential, -normal, 0.0], [0.0, 1.0, 0.0]) }
+    }
 }
 
 /// Normal and tangential speed, m/s, of a sphere that comes at a speed (m/s) and an angle (degrees from the surface; 90 is head-on and has

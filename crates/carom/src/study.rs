@@ -25,7 +25,9 @@
 //! ```
 
 mod distribution;
+mod points;
 mod sampling;
 
 pub use distribution::{Distribution, DistributionError, Given, Problem, read, read_distribution};
+pub use points::{ratios, steps};
 pub use sampling::{Band, Sampled, Sampling, Share, sampled, wilson};

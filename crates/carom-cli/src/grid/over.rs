@@ -2,8 +2,8 @@
 
 use crate::{law, values};
 use carom::error::did_you_mean;
-use carom::math;
 use carom::spec::{Key, LawSpec};
+use carom::study::{ratios, steps};
 use carom_report::Axis;
 
 /// What can be swept.
@@ -176,22 +176,7 @@ impl Over {
         if let Some(list) = &self.list {
             return list.clone();
         }
-        let last = count - 1;
-        let between = |i: usize| {
-            let share = i as f64 / last as f64;
-            if linear {
-                self.from + share * (self.to - self.from)
-            } else {
-                self.from * math::pow(self.to / self.from, share)
-            }
-        };
-        (0..count)
-            .map(|i| match i {
-                0 => self.from,
-                i if i == last => self.to,
-                i => between(i),
-            })
-            .collect()
+        if linear { steps(self.from, self.to, count) } else { ratios(self.from, self.to, count) }
     }
 }
 

@@ -31,22 +31,12 @@ impl Span {
 
     /// `count` values in equal ratios, both ends exact; a point is a single value.
     pub fn ratios(&self, count: usize) -> Vec<f64> {
-        self.between(count, |share| self.from * carom::math::pow(self.to / self.from, share))
+        if self.is_point() { vec![self.from] } else { carom::study::ratios(self.from, self.to, count) }
     }
 
     /// `count` values in equal steps, both ends exact; a point is a single value.
     pub fn steps(&self, count: usize) -> Vec<f64> {
-        self.between(count, |share| self.from + share * (self.to - self.from))
-    }
-
-    fn between(&self, count: usize, at: impl Fn(f64) -> f64) -> Vec<f64> {
-        if self.is_point() || count < 2 {
-            return vec![self.from];
-        }
-        let mut values: Vec<f64> = (0..count).map(|i| at(i as f64 / (count - 1) as f64)).collect();
-        values[0] = self.from;
-        values[count - 1] = self.to;
-        values
+        if self.is_point() { vec![self.from] } else { carom::study::steps(self.from, self.to, count) }
     }
 
     /// Parts of equal ratios; a point has one.

@@ -58,7 +58,7 @@ impl Meshed {
     #[inline(always)]
     fn prepared(&self, mut tet: Tetrahedron) -> Tetrahedron {
         if !tet.is_nowhere() {
-            tet.clear = f64::from(self.clear[self.cells.cell_of(&tet) as usize]);
+            tet.clear = f64::from(self.clear[tet.cell as usize]);
         }
         tet
     }

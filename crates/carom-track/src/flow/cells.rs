@@ -212,14 +212,11 @@ impl Cells {
         self.plane.map_or(x, |p| p.put(x))
     }
 
-    /// The centre of the cell of a tetrahedron, m, and the cell.
-    pub(crate) fn cell_of(&self, here: &Tetrahedron) -> u32 {
-        here.cell
-    }
-
-    fn corners(&self, tet: u32) -> ([usize; 3], usize) {
+    /// Nodes of a tetrahedron of a cell: its triangle's corners, and the cell's centre.
+    #[inline(always)]
+    fn corners(&self, tet: u32, cell: u32) -> ([usize; 3], usize) {
         let corners = self.cut.triangles[(tet >> 1) as usize].map(|p| p as usize);
-        (corners, self.centre(self.cut.cell(tet) as usize))
+        (corners, self.centre(cell as usize))
     }
 
     /// A tetrahedron by its number; `None` if it is flat, or another stands for it.
@@ -230,8 +227,7 @@ impl Cells {
     /// The same of a known cell.
     #[inline(always)]
     pub(crate) fn tetrahedron_of(&self, tet: u32, cell: u32) -> Option<Tetrahedron> {
-        let [a, b, c] = self.cut.triangles[(tet >> 1) as usize].map(|p| p as usize);
-        let centre = self.centre(cell as usize);
+        let ([a, b, c], centre) = self.corners(tet, cell);
         let (origin, velocity) = (self.points[centre], self.velocity[centre]);
         let edges = [sub(self.points[a], origin), sub(self.points[b], origin), sub(self.points[c], origin)];
         let mut changes =
@@ -389,7 +385,7 @@ impl Cells {
         self.locator.iter().for_each(|l| {
             l.meeting(&around, |cell| {
                 for tet in self.cut.of_cell(cell as usize) {
-                    let (corners, centre) = self.corners(tet);
+                    let (corners, centre) = self.corners(tet, cell);
                     most = corners.into_iter().chain([centre]).map(speed).fold(most, f64::max);
                 }
             });
@@ -418,7 +414,7 @@ impl Cells {
     /// A field's value at `x`.
     #[inline(always)]
     fn blend<const N: usize>(&self, here: &Tetrahedron, x: Vec3, nodes: &[[f64; N]]) -> [f64; N] {
-        let (corners, centre) = self.corners(here.id);
+        let (corners, centre) = self.corners(here.id, here.cell);
         let weights = here.coordinates(x);
         let at = [corners[0], corners[1], corners[2], centre];
         let mut sum = [0.0; N];

@@ -75,7 +75,7 @@ impl Cells {
     }
 
     fn friction(&self, triangle: u32, nu: f64) -> f64 {
-        let (corners, centre) = self.corners(2 * triangle);
+        let (corners, centre) = self.corners(2 * triangle, self.cut.cell(2 * triangle));
         let [a, b, c] = corners.map(|p| self.points[p]);
         let Some(normal) = unit(cross(sub(b, a), sub(c, a))) else { return 0.0 };
         let y = dot(sub(self.points[centre], a), normal).abs();

@@ -25,7 +25,7 @@ impl Cells {
     /// Gradient of a quantity of the nodes in a tetrahedron.
     #[inline(always)]
     pub(super) fn slope(&self, here: &Tetrahedron, of: impl Fn(usize) -> f64) -> Vec3 {
-        let (corners, centre) = self.corners(here.id);
+        let (corners, centre) = self.corners(here.id, here.cell);
         let base = of(centre);
         let changes = corners.map(|c| of(c) - base);
         [0, 1, 2].map(|j| (0..3).map(|n| changes[n] * here.dual[n][j]).sum())

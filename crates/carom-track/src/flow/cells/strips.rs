@@ -28,62 +28,49 @@ impl Strips {
     /// The strips of a plane case, whose neighbours are put into the cut; `None` where a side is no strip.
     pub fn new(mesh: &Mesh, plane: &Plane, cut: &mut Cut) -> Option<Self> {
         let empty = empty_faces(mesh);
-        let mut column: Vec<u32> = (0..mesh.points.len() as u32).collect();
-        for face in (0..mesh.faces.len()).filter(|f| !empty[*f]) {
-            let &[a, b, c, d] = mesh.faces.get(face) else { return None };
-            let across = |p: u32, q: u32| {
-                let edge = sub(mesh.points[q as usize], mesh.points[p as usize]);
-                norm(plane.along(edge)) <= ALONG * norm(edge)
-            };
-            let pairs = match [across(a, b), across(b, c), across(c, d), across(d, a)] {
-                [true, false, true, false] => [(a, b), (c, d)],
-                [false, true, false, true] => [(b, c), (d, a)],
-                _ => return None,
-            };
-            for (p, q) in pairs {
-                for (from, to) in [(p, q), (q, p)] {
-                    let known = column[from as usize];
-                    if known != from && known != to {
-                        return None;
-                    }
-                    column[from as usize] = to;
-                }
-            }
-        }
-        // of a column's two points the one with the smaller number stands for it
-        let of = |p: u32| p.min(column[p as usize]);
-        let mut alone = vec![UNUSED; cut.triangles.len()];
-        for face in (0..mesh.faces.len()).filter(|f| !empty[*f]) {
+        let sides: Vec<usize> = (0..mesh.faces.len()).filter(|f| !empty[*f]).collect();
+        let column = columns(mesh, plane, &sides)?;
+        let mut strips = Self { alone: vec![UNUSED; cut.triangles.len()] };
+        for face in sides {
             let first = cut.first[face] as usize;
-            let [a, b, c] = cut.triangles[first].map(of);
-            alone[first] = match (a == b, b == c, c == a) {
+            let [a, b, c] = cut.triangles[first].map(|p| column[p as usize]);
+            strips.alone[first] = match (a == b, b == c, c == a) {
                 (true, false, false) => 2,
                 (false, true, false) => 0,
                 (false, false, true) => 1,
                 _ => return None,
             };
         }
+        let mut beside = Vec::new();
         for cell in 0..mesh.cells {
-            let mut ends = Vec::new();
-            for tet in cut.of_cell(cell).filter(|tet| alone[(tet >> 1) as usize] != UNUSED) {
-                let corners = cut.triangles[(tet >> 1) as usize].map(of);
-                let single = corners[usize::from(alone[(tet >> 1) as usize])];
-                let pair = corners.into_iter().find(|c| *c != single)?;
-                ends.extend([(single, tet), (pair, tet)]);
-            }
-            ends.sort_unstable();
-            for shared in ends.chunk_by(|a, b| a.0 == b.0) {
-                let &[(end, one), (_, other)] = shared else { return None };
-                for (here, there) in [(one, other), (other, one)] {
-                    // behind the side that faces a corner lies what shares the other column
-                    let corners = cut.triangles[(here >> 1) as usize].map(of);
-                    for side in (0..3).filter(|side| corners[*side] != end) {
-                        cut.put_beside(here, side, there);
-                    }
-                }
+            strips.join(cell, &column, cut, &mut beside)?;
+        }
+        // the cut stays as it is unless all of it can be
+        for (tet, side, next) in beside {
+            cut.put_beside(tet, side, next);
+        }
+        Some(strips)
+    }
+
+    /// Which triangles of the plane lie beside each other in a cell; `None` where they do not go round its centre.
+    fn join(&self, cell: usize, column: &[u32], cut: &Cut, beside: &mut Vec<(u32, usize, u32)>) -> Option<()> {
+        let of = |tet: u32| cut.triangles[(tet >> 1) as usize].map(|p| column[p as usize]);
+        let mut ends = Vec::new();
+        for tet in cut.of_cell(cell).filter(|tet| self.alone[(tet >> 1) as usize] != UNUSED) {
+            let corners = of(tet);
+            let single = usize::from(self.alone[(tet >> 1) as usize]);
+            ends.extend([(corners[single], tet), (corners[(single + 1) % 3], tet)]);
+        }
+        ends.sort_unstable();
+        for shared in ends.chunk_by(|a, b| a.0 == b.0) {
+            let &[(end, one), (_, other)] = shared else { return None };
+            for (here, there) in [(one, other), (other, one)] {
+                // behind the side that faces a corner lies what shares the other column
+                let corners = of(here);
+                beside.extend((0..3).filter(|side| corners[*side] != end).map(|side| (here, side, there)));
             }
         }
-        Some(Self { alone })
+        Some(())
     }
 
     /// The vectors dual to the corners of a tetrahedron from the cell's centre, all put into the plane; `None` where it is not used or
@@ -104,6 +91,31 @@ impl Strips {
         dual[single] = to_p.map(|c| c / area);
         Some(dual)
     }
+}
+
+/// The column of each point, by the smaller number of its two; `None` where a side is no strip.
+fn columns(mesh: &Mesh, plane: &Plane, sides: &[usize]) -> Option<Vec<u32>> {
+    let across = |p: u32, q: u32| {
+        let edge = sub(mesh.points[q as usize], mesh.points[p as usize]);
+        norm(plane.along(edge)) <= ALONG * norm(edge)
+    };
+    let mut partner: Vec<u32> = (0..mesh.points.len() as u32).collect();
+    for face in sides {
+        let &[a, b, c, d] = mesh.faces.get(*face) else { return None };
+        let pairs = match [across(a, b), across(b, c), across(c, d), across(d, a)] {
+            [true, false, true, false] => [(a, b), (c, d)],
+            [false, true, false, true] => [(b, c), (d, a)],
+            _ => return None,
+        };
+        for (from, to) in pairs.into_iter().flat_map(|(p, q)| [(p, q), (q, p)]) {
+            let known = partner[from as usize];
+            if known != from && known != to {
+                return None;
+            }
+            partner[from as usize] = to;
+        }
+    }
+    Some(partner.into_iter().zip(0..).map(|(other, own)| own.min(other)).collect())
 }
 
 fn empty_faces(mesh: &Mesh) -> Vec<bool> {
@@ -175,7 +187,7 @@ mod tests {
                     let next = cells.tetrahedron(cells.cut.beside(here.id, side)).unwrap();
                     assert!(next.cell == here.cell && next.id != here.id);
                     // the middle of their common side, from the cell's centre to a column
-                    let corners = cells.corners(here.id).0;
+                    let corners = cells.corners(here.id, here.cell).0;
                     let end = (0..3).find(|i| here.dual[*i] != here.dual[side]).unwrap();
                     let end = cells.flat(cells.points[corners[end]]);
                     let middle = [0, 1, 2].map(|c| 0.5 * (end[c] + here.origin[c]));

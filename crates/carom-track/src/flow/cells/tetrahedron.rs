@@ -22,7 +22,7 @@ pub struct Tetrahedron {
     /// Its number.
     pub(super) id: u32,
     /// That of its cell.
-    pub(super) cell: u32,
+    pub(crate) cell: u32,
     /// No wall is nearer to o than this, m.
     pub(crate) clear: f64,
 }
