@@ -1,6 +1,8 @@
 //! Points from one value to another.
 
 use crate::math;
+use alloc::vec;
+use alloc::vec::Vec;
 
 /// `count` values in equal ratios between two of one sign, both ends exact; fewer than two are the first alone.
 ///
