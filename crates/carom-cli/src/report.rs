@@ -13,7 +13,7 @@ use crate::failure::Failure;
 use crate::trajectories;
 use carom::validity::CODES;
 use carom_report::{Column, Report, Table, significant};
-use carom_track::record::Fate;
+use carom_track::record::ParticleFate;
 use carom_track::{About, Summary};
 pub use made::Made;
 use std::path::Path;
@@ -77,7 +77,7 @@ fn clear(folder: &Path, name: &str) {
 fn fates(page: &mut Report, summary: &Summary) -> Result<(), Failure> {
     let all = summary.injected.count as f64;
     let mass = summary.injected.mass.value();
-    let rows: Vec<Fate> = Fate::ALL.into_iter().filter(|f| summary.count(*f) > 0).collect();
+    let rows: Vec<ParticleFate> = ParticleFate::ALL.into_iter().filter(|f| summary.count(*f) > 0).collect();
     let masses = rows.iter().map(|f| summary.fates[*f as usize].mass.value());
     let table = Table::new([
         Column::text("fate", rows.iter().map(|f| f.name()).chain(["injected"])),
@@ -110,7 +110,7 @@ fn fates(page: &mut Report, summary: &Summary) -> Result<(), Failure> {
     ];
     // two tables: counts and masses side by side are wider than a page
     let mut amounts = vec![Column::text("wall", walls.iter().map(|w| w.name.as_str()))];
-    let at_walls = |f: &Fate| walls.iter().any(|w| w.ends[*f as usize].count > 0);
+    let at_walls = |f: &ParticleFate| walls.iter().any(|w| w.ends[*f as usize].count > 0);
     for fate in rows.into_iter().filter(at_walls) {
         columns.push(Column::count(fate.name(), walls.iter().map(|w| w.ends[fate as usize].count)));
         let masses = walls.iter().map(|w| w.ends[fate as usize].mass.value());

@@ -5,7 +5,7 @@ use crate::law::MaterialsArgs;
 use crate::output;
 use crate::report::{self, Made};
 use carom_report::{Column, Table};
-use carom_track::record::Fate;
+use carom_track::record::ParticleFate;
 use carom_track::{About, Case, Progress, RunError, RunOptions, Shard, Summary};
 use indicatif::{HumanCount, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use std::fmt::Write as _;
@@ -181,7 +181,7 @@ pub fn tell(summary: &Summary) -> Result<String, Failure> {
     if !summary.title.is_empty() {
         let _ = writeln!(text, "{}\n", summary.title);
     }
-    let ended: Vec<String> = Fate::ALL
+    let ended: Vec<String> = ParticleFate::ALL
         .into_iter()
         .filter(|fate| summary.count(*fate) > 0)
         .map(|fate| format!("{} {}", summary.count(fate), fate.name()))
@@ -204,7 +204,7 @@ pub fn tell(summary: &Summary) -> Result<String, Failure> {
         Column::count("impacts", walls.iter().map(|w| w.impacts)),
         Column::count("rebounds", walls.iter().map(|w| w.rebounds)),
     ];
-    for fate in Fate::AT_WALLS {
+    for fate in ParticleFate::AT_WALLS {
         if summary.count(fate) > 0 {
             columns.push(Column::count(fate.name(), walls.iter().map(|w| w.ends[fate as usize].count)));
         }

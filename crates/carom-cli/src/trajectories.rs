@@ -7,7 +7,7 @@ use crate::failure::{Failure, of_file};
 use carom_report::plot::{Legend, Marker};
 use carom_report::{Axis, Color, Plot, RowReader, Series};
 use carom_track::About;
-use carom_track::record::Fate;
+use carom_track::record::ParticleFate;
 use std::borrow::Cow;
 use std::path::Path;
 use std::str::FromStr;
@@ -138,7 +138,7 @@ fn extent(lines: &[Line]) -> Option<([f64; 2], [f64; 2])> {
     (x.0 <= x.1 && y.0 <= y.1).then_some(([x.0, y.0], [x.1, y.1]))
 }
 
-fn plot(about: &About, lines: &[Line], ends: &[(Fate, [f64; 2])], low: [f64; 2], high: [f64; 2]) -> Plot {
+fn plot(about: &About, lines: &[Line], ends: &[(ParticleFate, [f64; 2])], low: [f64; 2], high: [f64; 2]) -> Plot {
     let (low, high) = walls::with_walls(about, low, high);
     let spans = [0, 1].map(|axis| high[axis] - low[axis]);
     // one unit for both: they are compared by eye
@@ -163,7 +163,7 @@ fn plot(about: &About, lines: &[Line], ends: &[(Fate, [f64; 2])], low: [f64; 2],
         let path = Series::line(label, line.x.iter().copied(), line.y.iter().copied()).color(Color::cycle(injection));
         plot = plot.with(if lines.len() > FEW { path.thin() } else { path });
     }
-    for fate in Fate::ALL {
+    for fate in ParticleFate::ALL {
         let here = || ends.iter().filter(move |(f, _)| *f == fate).map(|(_, at)| *at);
         if here().next().is_some() {
             let (marker, color) = mark(fate);
@@ -184,13 +184,13 @@ fn plot(about: &About, lines: &[Line], ends: &[(Fate, [f64; 2])], low: [f64; 2],
 const FEW: usize = 8;
 
 /// The mark where a path ends.
-fn mark(fate: Fate) -> (Marker, Color) {
+fn mark(fate: ParticleFate) -> (Marker, Color) {
     match fate {
-        Fate::Captured => (Marker::Circle, Color::BLACK),
-        Fate::Settled => (Marker::Circle, Color::GREY),
-        Fate::Trapped => (Marker::Square, Color::BLACK),
-        Fate::Escaped => (Marker::Triangle, Color::BLACK),
-        Fate::Airborne => (Marker::Cross, Color::GREY),
+        ParticleFate::Captured => (Marker::Circle, Color::BLACK),
+        ParticleFate::Settled => (Marker::Circle, Color::GREY),
+        ParticleFate::Trapped => (Marker::Square, Color::BLACK),
+        ParticleFate::Escaped => (Marker::Triangle, Color::BLACK),
+        ParticleFate::Airborne => (Marker::Cross, Color::GREY),
         _ => (Marker::Cross, Color::BLACK),
     }
 }

@@ -6,7 +6,7 @@ use carom::material::Library;
 use carom_report::plot::Legend;
 use carom_report::{Axis, Color, Plot, Series};
 use carom_track::Case;
-use carom_track::record::{End, Fate, ImpactRecord, Sink};
+use carom_track::record::{End, ImpactRecord, ParticleFate, Sink};
 use carom_track::tracker::Particle;
 use serde::Serialize;
 use std::path::Path;
@@ -113,7 +113,7 @@ fn track(
             first_floor_impact: mine.iter().find(|i| i.normal[1] > 0.5).map(|i| i.position[0]),
             fate: end.fate.name(),
             end: match (end.fate, mine.last()) {
-                (Fate::Sliding, Some(last)) => last.position[0],
+                (ParticleFate::Sliding, Some(last)) => last.position[0],
                 _ => end.position[0],
             },
             x: line.iter().map(|p| p.1).collect(),

@@ -8,7 +8,7 @@ mod study;
 use carom_report::plot::{Dash, Marker};
 use carom_report::{Axis, Color, Column, Plot, Series, Table};
 use carom_track::force::Sphere;
-use carom_track::record::Fate;
+use carom_track::record::ParticleFate;
 use study::{CaseFile, Paths, Result, Track, in_parallel, logspace, meters, track, wilson};
 
 const MEASURED: &str = include_str!("bend-measured.csv");
@@ -142,10 +142,11 @@ fn deposited(case: &CaseFile, density: f64, stokes: &[f64]) -> Result<Vec<f64>> 
     let tracks = track(&case, Paths::Dropped);
     let share = |tracks: &[Track]| {
         let kept = |at: Option<usize>| {
-            let held = tracks.iter().filter(|t| !matches!(t.end.fate, Fate::Escaped | Fate::Overlapping));
+            let held =
+                tracks.iter().filter(|t| !matches!(t.end.fate, ParticleFate::Escaped | ParticleFate::Overlapping));
             held.filter(|t| t.end.wall == at).count() as f64
         };
-        let started = tracks.iter().filter(|t| t.end.fate != Fate::Overlapping).count() as f64;
+        let started = tracks.iter().filter(|t| t.end.fate != ParticleFate::Overlapping).count() as f64;
         kept(bend) / (started - kept(before))
     };
     Ok(tracks.chunks(tracks.len() / stokes.len()).map(share).collect())

@@ -6,7 +6,7 @@ mod study;
 
 use carom_report::plot::{Dash, Marker};
 use carom_report::{Axis, Color, Column, Plot, Series, Table};
-use carom_track::record::Fate;
+use carom_track::record::ParticleFate;
 use study::{CaseFile, Paths, Result, Track, in_parallel, linspace, track};
 
 const MEASURED: &str = include_str!("chamber-measured.csv");
@@ -142,7 +142,7 @@ fn concentrations(case: &CaseFile, heights: &[f64]) -> Result<(Vec<Vec<f64>>, St
         tracks.iter().filter(|t| index.is_some() && t.end.wall == index).count() as f64 / tracks.len() as f64 * 100.0
     };
     let walls = ["floor", "ceiling", "side", "ends", "outlet"].map(|w| format!("{w} {:.1} %", of(w)));
-    let airborne = tracks.iter().filter(|t| t.end.fate == Fate::Airborne).count();
+    let airborne = tracks.iter().filter(|t| t.end.fate == ParticleFate::Airborne).count();
     Ok((profiles, format!("{}; {airborne} of {} still airborne", walls.join(", "), tracks.len())))
 }
 

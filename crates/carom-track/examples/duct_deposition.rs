@@ -10,7 +10,7 @@ use carom_report::plot::Marker;
 use carom_report::{Axis, Color, Column, Plot, Series, Table};
 use carom_track::flow::Fluid;
 use carom_track::force::{Slip, Sphere, relaxation_time};
-use carom_track::record::{End, Fate};
+use carom_track::record::{End, ParticleFate};
 use study::{CaseFile, Paths, Result, in_parallel, meters, track, wilson};
 
 const MEASURED: &str = include_str!("duct-measured.csv");
@@ -230,7 +230,9 @@ fn velocities(case: &CaseFile, speed: f64) -> Result<[[f64; 3]; 2]> {
     let passes: f64 = ends.iter().map(|e| (e.position[0].min(TO) - FROM).max(0.0)).sum();
     let reached = ends.iter().filter(|e| e.position[0] >= FROM).count() as f64;
     let kept = |e: &&End| {
-        matches!(e.fate, Fate::Trapped | Fate::Captured | Fate::Settled) && e.position[0] >= FROM && e.position[0] < TO
+        matches!(e.fate, ParticleFate::Trapped | ParticleFate::Captured | ParticleFate::Settled)
+            && e.position[0] >= FROM
+            && e.position[0] < TO
     };
     let on = |upper: bool| {
         let count = ends.iter().filter(kept).filter(|e| (e.position[1] > 0.5 * HEIGHT) == upper).count() as f64;

@@ -8,7 +8,7 @@ mod study;
 use carom_report::plot::{Dash, Reference};
 use carom_report::{Axis, Color, Column, Plot, Series, Table};
 use carom_track::force::Sphere;
-use carom_track::record::Fate;
+use carom_track::record::ParticleFate;
 use study::{CaseFile, Paths, Result, logspace, meters, track};
 
 const WIDTH: f64 = 1e-3;
@@ -103,7 +103,10 @@ fn at(case: &CaseFile, diameter: f64, places: &[f64], start: Start) -> CaseFile 
 fn efficiency(case: &CaseFile, diameter: f64, start: Start) -> Result<f64> {
     let places: Vec<f64> = (0..ACROSS).map(|i| 0.5 * WIDTH * (i as f64 + 0.5) / ACROSS as f64).collect();
     let tracks = track(&at(case, diameter, &places, start).case()?, Paths::Dropped);
-    let kept = tracks.iter().filter(|t| matches!(t.end.fate, Fate::Captured | Fate::Trapped | Fate::Settled)).count();
+    let kept = tracks
+        .iter()
+        .filter(|t| matches!(t.end.fate, ParticleFate::Captured | ParticleFate::Trapped | ParticleFate::Settled))
+        .count();
     Ok(kept as f64 / ACROSS as f64)
 }
 
@@ -124,7 +127,7 @@ fn round_half(greased: &CaseFile) -> Result<f64> {
     while high / low > 1.001 {
         let middle = f64::sqrt(low * high);
         let tracks = track(&at(&case, middle, &places, start).case()?, Paths::Dropped);
-        let kept = tracks.iter().filter(|t| t.end.fate == Fate::Trapped).count();
+        let kept = tracks.iter().filter(|t| t.end.fate == ParticleFate::Trapped).count();
         if 2 * kept >= ACROSS { high = middle } else { low = middle }
     }
     root_stokes(greased, f64::sqrt(low * high))

@@ -9,7 +9,7 @@ use carom_report::plot::Marker;
 use carom_report::{Axis, Color, Column, Plot, Series, Table};
 use carom_track::flow::{Fluid, Pipe, Profile};
 use carom_track::force::{Slip, Sphere, relaxation_time};
-use carom_track::record::{End, Fate};
+use carom_track::record::{End, ParticleFate};
 use study::{CaseFile, Paths, Result, in_parallel, logspace, meters, track, wilson};
 
 const RADIUS: f64 = 6.35e-3;
@@ -128,7 +128,7 @@ fn deposition(case: &CaseFile, walk: &Walk, diameter: f64) -> Result<[f64; 3]> {
     let case = case.set_each("injection", "diameter", meters(diameter)).set_each("injection", "count", walk.count);
     let ends: Vec<End> = track(&case.case()?, Paths::Dropped).into_iter().map(|t| t.end).collect();
     let reached = ends.iter().filter(|e| e.position[0] >= FROM).count() as f64;
-    let kept = |e: &&End| e.fate == Fate::Trapped && e.position[0] >= FROM && e.position[0] < TO;
+    let kept = |e: &&End| e.fate == ParticleFate::Trapped && e.position[0] >= FROM && e.position[0] < TO;
     let share = ends.iter().filter(kept).count() as f64 / reached;
     let per_log = SPEED * 2.0 * RADIUS / (4.0 * (TO - FROM));
     let (low, high) = wilson(share, reached);

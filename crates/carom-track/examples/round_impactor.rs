@@ -7,7 +7,7 @@ mod study;
 use carom_report::plot::{Dash, Reference};
 use carom_report::{Axis, Color, Column, Plot, Series, Table};
 use carom_track::force::Sphere;
-use carom_track::record::Fate;
+use carom_track::record::ParticleFate;
 use study::{CaseFile, Paths, Result, in_parallel, linspace, meters, track};
 
 const WIDTH: f64 = 1e-3;
@@ -93,11 +93,15 @@ fn collected(case: &CaseFile, root_stokes: f64) -> Result<f64> {
     let (plate, nozzle) = (walls.iter().position(|w| w.name == "plate"), walls.iter().position(|w| w.name == "nozzle"));
     let tracks = track(&case, Paths::Dropped);
     let kept = |wall: Option<usize>| {
-        tracks.iter().filter(|t| t.end.fate == Fate::Trapped && wall.is_some() && t.end.wall == wall).count() as f64
+        tracks.iter().filter(|t| t.end.fate == ParticleFate::Trapped && wall.is_some() && t.end.wall == wall).count()
+            as f64
     };
     // what stays in the nozzle before its mouth counts as not come out
     let inside = tracks.iter().filter(|t| {
-        t.end.fate == Fate::Trapped && nozzle.is_some() && t.end.wall == nozzle && t.end.position[1] > WIDTH * 1.001
+        t.end.fate == ParticleFate::Trapped
+            && nozzle.is_some()
+            && t.end.wall == nozzle
+            && t.end.position[1] > WIDTH * 1.001
     });
     Ok(kept(plate) / (tracks.len() as f64 - inside.count() as f64))
 }

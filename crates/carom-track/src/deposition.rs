@@ -10,7 +10,7 @@ pub(crate) use faces::Brought;
 pub use faces::{FaceTally, Faces};
 pub(crate) use regions::Sorter;
 
-use crate::record::{End, Fate};
+use crate::record::{End, ParticleFate};
 use crate::summary::Amount;
 use crate::vector::Vec3;
 use std::collections::BTreeMap;
@@ -108,7 +108,7 @@ impl Deposition {
         let size = sorter.size(end.particle.diameter);
         let mass = end.particle.mass();
         self.injected[size].add(mass);
-        if !matches!(end.fate, Fate::Captured | Fate::Settled | Fate::Trapped) {
+        if !matches!(end.fate, ParticleFate::Captured | ParticleFate::Settled | ParticleFate::Trapped) {
             return None;
         }
         let cell = Cell { wall: end.wall? as u32, region: sorter.region(end.position) as u32, size: size as u32 };

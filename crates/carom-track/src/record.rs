@@ -7,9 +7,9 @@ use crate::tracker::Particle;
 use crate::vector::Vec3;
 use carom::removal::Mode;
 
-/// How a particle ends.
+/// How a particle ends; what a single impact comes to is [`carom::Fate`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Fate {
+pub enum ParticleFate {
     /// Held by adhesion.
     Captured,
     /// At rest on a wall, its bounces below the stated height.
@@ -30,7 +30,7 @@ pub enum Fate {
     Stuck,
 }
 
-impl Fate {
+impl ParticleFate {
     /// All of them, in the order of the results.
     pub const ALL: [Self; 9] = [
         Self::Captured,
@@ -174,7 +174,7 @@ pub struct End {
     /// As it was injected.
     pub particle: Particle,
     /// Its fate.
-    pub fate: Fate,
+    pub fate: ParticleFate,
     /// The wall that ended it.
     pub wall: Option<usize>,
     /// When, s.

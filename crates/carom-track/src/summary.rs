@@ -2,14 +2,14 @@
 
 use crate::deposition::{Bins, Brought, Cell, Deposition, Faces, Sorter};
 use crate::exact_sum::ExactSum;
-use crate::record::{End, Event, Fate, ImpactRecord};
+use crate::record::{End, Event, ImpactRecord, ParticleFate};
 use carom::removal::Mode;
 use carom::validity::CODES;
 use serde::Serialize;
 use serde::ser::SerializeMap;
 
 /// How many fates there are.
-const FATES: usize = Fate::ALL.len();
+const FATES: usize = ParticleFate::ALL.len();
 
 /// How many, and how much of it, kg.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, serde::Deserialize)]
@@ -41,7 +41,7 @@ pub struct WallTally {
     pub impacts: u64,
     /// Rebounds from it.
     pub rebounds: u64,
-    /// Ends at it, by fate in the order of [`Fate::ALL`].
+    /// Ends at it, by fate in the order of [`ParticleFate::ALL`].
     pub ends: [Amount; FATES],
     /// How many the flow took off it again by rolling, sliding and lifting.
     pub removed: [u64; 3],
@@ -59,7 +59,7 @@ pub struct Summary {
     pub title: String,
     /// All that was injected.
     pub injected: Amount,
-    /// By fate, in the order of [`Fate::ALL`].
+    /// By fate, in the order of [`ParticleFate::ALL`].
     pub fates: [Amount; FATES],
     /// By wall.
     pub walls: Vec<WallTally>,
@@ -87,7 +87,7 @@ impl Summary {
     }
 
     /// How many ended that way.
-    pub fn count(&self, fate: Fate) -> u64 {
+    pub fn count(&self, fate: ParticleFate) -> u64 {
         self.fates[fate as usize].count
     }
 
@@ -209,7 +209,7 @@ impl Serialize for Report<'_> {
 impl Serialize for Fates<'_> {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(None)?;
-        for fate in Fate::ALL {
+        for fate in ParticleFate::ALL {
             map.serialize_entry(fate.name(), &self.0.count(fate))?;
         }
         map.serialize_entry("lost", &self.0.lost())?;
@@ -219,7 +219,7 @@ impl Serialize for Fates<'_> {
 
 impl Serialize for Masses<'_> {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_map(Fate::ALL.into_iter().map(|f| (f.name(), self.0[f as usize].mass.value())))
+        serializer.collect_map(ParticleFate::ALL.into_iter().map(|f| (f.name(), self.0[f as usize].mass.value())))
     }
 }
 
@@ -240,7 +240,7 @@ impl Serialize for One<'_> {
         let mut map = serializer.serialize_map(None)?;
         map.serialize_entry("impacts", &self.0.impacts)?;
         map.serialize_entry("rebounds", &self.0.rebounds)?;
-        for fate in Fate::AT_WALLS {
+        for fate in ParticleFate::AT_WALLS {
             let amount = &self.0.ends[fate as usize];
             map.serialize_entry(fate.name(), &amount.count)?;
             map.serialize_entry(&format!("{}_mass", fate.name()), &amount.mass.value())?;

@@ -2,7 +2,7 @@
 
 use crate::record::columns::{Column, Columns, Kind as Cells, NO_WORD};
 use crate::record::text::{Rows, quoted};
-use crate::record::{End, Event, Fate, ImpactRecord};
+use crate::record::{End, Event, ImpactRecord, ParticleFate};
 use carom::validity::CODES;
 use carom_table::{Field, Kind, Schema};
 use std::borrow::Cow;
@@ -38,8 +38,8 @@ pub(crate) enum What {
     Injection,
     /// The word of an [`Event`], by its place among all.
     Event,
-    /// The word of a [`Fate`], by its place among all.
-    Fate,
+    /// The word of a [`ParticleFate`], by its place among all.
+    ParticleFate,
     /// Validity codes, by their bits.
     Validity,
 }
@@ -111,7 +111,7 @@ impl Words {
             What::Wall => Cow::Borrowed(self.walls.get(place).map_or("", String::as_str)),
             What::Injection => Cow::Borrowed(self.injections.get(place).map_or("", String::as_str)),
             What::Event => Cow::Borrowed(Event::ALL.get(place).map_or("", |e| e.name())),
-            What::Fate => Cow::Borrowed(Fate::ALL.get(place).map_or("", |f| f.name())),
+            What::ParticleFate => Cow::Borrowed(ParticleFate::ALL.get(place).map_or("", |f| f.name())),
             What::Validity => {
                 let codes = CODES.iter().filter(|(_, v, _)| code & v.bits() == v.bits()).map(|(word, _, _)| *word);
                 Cow::Owned(codes.collect::<Vec<_>>().join(" "))
@@ -228,7 +228,7 @@ pub(crate) const LAYOUTS: [Layout; 4] = [
         columns: &[
             ("particle", "", Count),
             ("injection", "", What::Injection),
-            ("fate", "", What::Fate),
+            ("fate", "", What::ParticleFate),
             ("wall", "", What::Wall),
             ("time", "s", Float),
             ("x", "m", Float),
@@ -288,7 +288,7 @@ mod tests {
         assert_eq!(LAYOUTS[TRAJECTORIES].schema().len(), 11);
         let fates = "particle,injection,fate,wall,time,x,y,z,vx,vy,vz,diameter,weight,mass,impacts\n";
         assert_eq!(LAYOUTS[FATES].header(), fates);
-        assert!(Fate::ALL.iter().enumerate().all(|(i, f)| *f as usize == i));
+        assert!(ParticleFate::ALL.iter().enumerate().all(|(i, f)| *f as usize == i));
         assert!(Event::ALL.iter().enumerate().all(|(i, e)| e.index() as usize == i));
     }
 }

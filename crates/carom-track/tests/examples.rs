@@ -6,7 +6,7 @@ mod study;
 use carom_track::Case;
 use carom_track::flow::{Channel, Profile};
 use carom_track::force::Sphere;
-use carom_track::record::{Event, Fate};
+use carom_track::record::{Event, ParticleFate};
 use study::{
     CaseFile, Paths, Result, Track, diffusivity_and_settling, fuchs, gormley_kennedy, linspace, meters, through, track,
 };
@@ -53,7 +53,7 @@ fn wind_tunnel_spheres_bounce_until_the_capture_velocity() -> Result<()> {
                 assert_eq!(impact.event == Event::Rebound, impact.normal_speed_in > capture, "{impact:?} {capture}");
                 assert!((impact.position[1] - clearance * diameter).abs() < 1e-9 * diameter, "{at} {impact:?}");
             }
-            assert_eq!(track.end.fate, Fate::Captured);
+            assert_eq!(track.end.fate, ParticleFate::Captured);
             // each bounce slower than the last, so less elastic
             assert!(track.impacts.windows(2).all(|i| i[1].restitution < i[0].restitution));
         }
@@ -75,8 +75,8 @@ fn the_duct_keeps_the_spheres_its_flow_is_too_slow_to_roll_off() -> Result<()> {
     for track in track(&case, Paths::Dropped) {
         let rolls = law(&case).removal(track.end.particle.diameter, &air)?.expect("it adheres").rolling;
         let removed = channel.friction_velocity() > rolls.friction_velocity;
-        assert_eq!(track.end.fate == Fate::Removed, removed, "{:?}", track.end);
-        assert!(removed || matches!(track.end.fate, Fate::Captured | Fate::Settled));
+        assert_eq!(track.end.fate == ParticleFate::Removed, removed, "{:?}", track.end);
+        assert!(removed || matches!(track.end.fate, ParticleFate::Captured | ParticleFate::Settled));
         ends[usize::from(removed)] += 1;
     }
     assert!(ends.iter().all(|n| *n > 40), "{ends:?}");
@@ -109,7 +109,7 @@ fn two_walls_with_and_without_adhesion() -> Result<()> {
     let elastic = elastic.set_each("wall", "restitution", 1.0).set_each("wall", "tangential_restitution", 1.0);
     let [ea, one] = [file, elastic].map(|f| track(&f.case().expect("a case"), Paths::Dropped).remove(0));
     // with e = 1 nothing holds it: when its bounces have died it slides on with the air
-    assert_eq!((ea.end.fate, one.end.fate), (Fate::Captured, Fate::Sliding));
+    assert_eq!((ea.end.fate, one.end.fate), (ParticleFate::Captured, ParticleFate::Sliding));
     assert_eq!(ea.bounces(), 1);
     assert!((ea.impacts[0].position[1] - (20e-3 - 35e-6)).abs() < 1e-12, "it meets the upper wall first");
     for i in one.impacts.iter().filter(|i| i.event == Event::Rebound) {
@@ -140,7 +140,7 @@ fn impactor(file: &CaseFile, diameter: f64) -> Result<(f64, f64)> {
     });
     let case = file.clone().set("injection", injections.collect::<Vec<_>>()).case()?;
     let tracks = track(&case, Paths::Dropped);
-    let kept = tracks.iter().filter(|t| matches!(t.end.fate, Fate::Captured | Fate::Trapped)).count();
+    let kept = tracks.iter().filter(|t| matches!(t.end.fate, ParticleFate::Captured | ParticleFate::Trapped)).count();
     let time = case.dynamics.relaxation_time(&Sphere { diameter, density: tracks[0].end.particle.density });
     Ok((kept as f64 / ACROSS as f64, (2.0 * time * 30.0 / 1e-3).sqrt()))
 }
@@ -172,8 +172,8 @@ fn deposited(near_wall: &str, drift: bool) -> Result<f64> {
     let file = file.set("forces.random_walk.drift", drift);
     let file = file.set_each("injection", "diameter", "5.65 um").set_each("injection", "count", 60);
     let tracks = track(&file.case()?, Paths::Dropped);
-    assert!(tracks.iter().all(|t| t.end.fate != Fate::Airborne), "all reach the wall or the outlet");
-    Ok(tracks.iter().filter(|t| t.end.fate == Fate::Trapped).count() as f64 / tracks.len() as f64)
+    assert!(tracks.iter().all(|t| t.end.fate != ParticleFate::Airborne), "all reach the wall or the outlet");
+    Ok(tracks.iter().filter(|t| t.end.fate == ParticleFate::Trapped).count() as f64 / tracks.len() as f64)
 }
 
 #[test]
@@ -207,7 +207,7 @@ fn droplets_that_follow_the_fluid_stay_evenly_spread() -> Result<()> {
         // those that eddies push against the wall bounce no height that counts, and edges of layers hold none up
         let most = tracks.iter().map(|t| t.end.steps).max().unwrap_or_default();
         assert!(most < 50_000, "{near_wall}: {most} steps");
-        assert!(tracks.iter().all(|t| t.impacts.len() < 200 && t.end.fate == Fate::Airborne), "{near_wall}");
+        assert!(tracks.iter().all(|t| t.impacts.len() < 200 && t.end.fate == ParticleFate::Airborne), "{near_wall}");
         let near = tracks.iter().filter(|t| t.end.position[1].hypot(t.end.position[2]) > 5.5e-3).count();
         assert!((15..=35).contains(&near), "seed 1: {near_wall}: {near} of 100 in the outer quarter");
     }

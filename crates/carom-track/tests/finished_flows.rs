@@ -3,7 +3,7 @@
 #[path = "../examples/study/mod.rs"]
 mod study;
 
-use carom_track::record::{Event, Fate};
+use carom_track::record::{Event, ParticleFate};
 use study::{CaseFile, Paths, Result, meters, track};
 
 /// Every case file beside a finished flow runs with a few spheres, and none gets stuck.
@@ -19,7 +19,7 @@ fn every_case_runs_with_a_few_spheres() -> Result<()> {
         let case = if name == "chamber" { file.set("run.until", "1 s") } else { file }.case()?;
         let tracks = track(&case, Paths::Dropped);
         assert_eq!(tracks.len() as u64, case.count(), "{name}");
-        assert!(tracks.iter().all(|t| t.end.fate != Fate::Stuck), "{name}");
+        assert!(tracks.iter().all(|t| t.end.fate != ParticleFate::Stuck), "{name}");
     }
     Ok(())
 }
@@ -31,7 +31,8 @@ fn bend(case: &CaseFile, stokes: f64) -> Result<f64> {
         case.clone().set_each("injection", "diameter", meters(diameter)).set_each("injection", "count", 100).case()?;
     let bend = case.domain.walls().iter().position(|w| w.name == "bend");
     let tracks = track(&case, Paths::Dropped);
-    Ok(tracks.iter().filter(|t| t.end.fate == Fate::Trapped && t.end.wall == bend).count() as f64 / tracks.len() as f64)
+    Ok(tracks.iter().filter(|t| t.end.fate == ParticleFate::Trapped && t.end.wall == bend).count() as f64
+        / tracks.len() as f64)
 }
 
 /// Pui, Romay-Novas & Liu 1987 measured 37.7 and 74.6 %: between what a parabolic and what a flat profile at the inlet give.
@@ -54,7 +55,7 @@ fn spheres_bounce_in_the_tunnel_where_the_plug_in_has_them() -> Result<()> {
     let tracks = track(&case.case()?, Paths::Dropped);
     let theirs: [&[f64]; 2] = [&[72.1, 229.3, 353.2, 442.2, 501.4, 536.4, 551.7], &[142.3, 269.4, 337.4, 367.3]];
     for (track, theirs) in tracks.iter().zip(theirs) {
-        assert_eq!(track.end.fate, Fate::Captured);
+        assert_eq!(track.end.fate, ParticleFate::Captured);
         let impacts: Vec<_> =
             track.impacts.iter().filter(|i| matches!(i.event, Event::Rebound | Event::Capture)).collect();
         assert_eq!(impacts.len(), theirs.len());
@@ -72,7 +73,7 @@ fn half_is_collected_where_round_impactors_do() -> Result<()> {
         CaseFile::read("cfd/impactor/impactor.toml")?.without("output.size_bins").set_each("injection", "count", 100);
     let share = |diameter: f64| -> Result<f64> {
         let tracks = track(&case.clone().set_each("injection", "diameter", meters(diameter)).case()?, Paths::Dropped);
-        Ok(tracks.iter().filter(|t| t.end.fate == Fate::Trapped).count() as f64 / tracks.len() as f64)
+        Ok(tracks.iter().filter(|t| t.end.fate == ParticleFate::Trapped).count() as f64 / tracks.len() as f64)
     };
     // √Stk = 0.44 and 0.54
     let (below, above) = (share(0.734e-6)?, share(0.918e-6)?);

@@ -4,12 +4,12 @@ use super::Line;
 use crate::failure::Failure;
 use carom_report::{Field, TableReader, Values};
 use carom_track::TableFormat;
-use carom_track::record::Fate;
+use carom_track::record::ParticleFate;
 use std::collections::HashMap;
 use std::path::Path;
 
 /// Fate and last place of each path, as far as the run recorded fates.
-pub fn of(folder: &Path, lines: &[Line]) -> Result<Vec<(Fate, [f64; 2])>, Failure> {
+pub fn of(folder: &Path, lines: &[Line]) -> Result<Vec<(ParticleFate, [f64; 2])>, Failure> {
     let formats = [TableFormat::Csv, TableFormat::Parquet];
     let mut paths = formats.map(|format| folder.join(format!("fates.{}", format.extension()))).into_iter();
     let Some(path) = paths.find(|path| path.exists()) else { return Ok(Vec::new()) };
@@ -21,7 +21,7 @@ pub fn of(folder: &Path, lines: &[Line]) -> Result<Vec<(Fate, [f64; 2])>, Failur
         let (Values::Count(particles), Values::Text(fates)) = (&particles.values, &fates.values) else { continue };
         for (particle, fate) in particles.iter().zip(fates) {
             let (Some(particle), Some(name)) = (particle, fate) else { continue };
-            let Some(fate) = Fate::ALL.into_iter().find(|f| f.name() == &**name) else { continue };
+            let Some(fate) = ParticleFate::ALL.into_iter().find(|f| f.name() == &**name) else { continue };
             ends.extend(places.remove(particle).map(|at| (fate, at)));
         }
         if places.is_empty() {

@@ -6,7 +6,7 @@ use carom::material::Library;
 use carom_track::Case;
 use carom_track::force::Sphere;
 use carom_track::force::brownian::diffusivity;
-use carom_track::record::{End, Event, Fate, ImpactRecord, Sink};
+use carom_track::record::{End, Event, ImpactRecord, ParticleFate, Sink};
 use carom_track::tracker::Particle;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -240,5 +240,5 @@ pub fn diffusivity_and_settling(case: &Case, diameter: f64) -> [f64; 2] {
 pub fn through(case: &Case) -> (f64, f64) {
     let tracks = track(case, Paths::Dropped);
     let of = |fate| tracks.iter().filter(|t| t.end.fate == fate).count() as f64;
-    (of(Fate::Escaped), tracks.len() as f64 - of(Fate::Overlapping))
+    (of(ParticleFate::Escaped), tracks.len() as f64 - of(ParticleFate::Overlapping))
 }

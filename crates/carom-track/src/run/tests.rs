@@ -121,7 +121,7 @@ fn nothing_is_lost_and_nothing_invented() {
         .sum();
     assert_eq!(named, 5000);
     let kept: u64 = s.deposition.kept().map(|(_, a)| a.count).sum();
-    assert_eq!(kept, s.count(crate::record::Fate::Captured) + s.count(crate::record::Fate::Trapped));
+    assert_eq!(kept, s.count(crate::record::ParticleFate::Captured) + s.count(crate::record::ParticleFate::Trapped));
     assert_eq!(s.deposition.injected.iter().map(|a| a.count).sum::<u64>(), 5000);
     let mut rows = csv::Reader::from_path(folder.path().join("impacts.csv")).unwrap();
     let mut last = (0u64, 0.0f64);
@@ -266,7 +266,7 @@ fn fates_are_told_particle_by_particle() {
     assert_eq!(particle, 5000);
     assert_eq!(mass.value(), summary.injected.mass.value());
     assert_eq!(impacts, summary.walls.iter().map(|w| w.impacts).sum::<u64>());
-    assert_eq!(captured, summary.count(crate::record::Fate::Captured));
+    assert_eq!(captured, summary.count(crate::record::ParticleFate::Captured));
 }
 
 #[test]

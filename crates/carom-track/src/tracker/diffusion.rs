@@ -32,7 +32,7 @@ use crate::force::brownian::{Relaxation, Spread, thermal_speed};
 use crate::force::{Drag, reynolds};
 use crate::geometry::{Hit, Path, Wandering};
 use crate::random::{Purpose, Stream};
-use crate::record::{Fate, Sink};
+use crate::record::{ParticleFate, Sink};
 use crate::vector::{Vec3, add, dot, norm, scale, sub};
 
 /// Standard deviations of the noise that a long step stays off all walls by.
@@ -117,7 +117,7 @@ impl<D: Domain> Walk<'_, D> {
         crew.steps[l] += 1;
         if crew.steps[l] > self.settings.max_steps {
             sink.stalled();
-            finish(crew, l, Fate::Airborne, None, sink);
+            finish(crew, l, ParticleFate::Airborne, None, sink);
             return;
         }
         let body = crew.bodies.one(l);
@@ -287,7 +287,7 @@ impl<D: Domain> Walk<'_, D> {
             None => self.reenter(crew, l, crew.time[l], x, sink),
         }
         if stopped && stop >= self.settings.until {
-            finish(crew, l, Fate::Airborne, None, sink);
+            finish(crew, l, ParticleFate::Airborne, None, sink);
         } else if self.dynamics.random_walk.is_some() {
             self.renew(crew, l, h);
         }

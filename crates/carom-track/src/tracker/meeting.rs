@@ -12,10 +12,10 @@ use crate::domain::{Domain, Hit};
 use crate::dynamics::Bodies;
 use crate::force::brownian::BOLTZMANN;
 use crate::random::{Purpose, Stream};
-use crate::record::{Event, Fate, ImpactRecord, Sink};
+use crate::record::{Event, ImpactRecord, ParticleFate, Sink};
 use crate::vector::{Vec3, add, cross, dot, norm, scale, sub};
 use carom::normal::NormalLaw;
-use carom::{Energy, Fate as LawFate, Impact, Validity, WallLaw};
+use carom::{Energy, Fate, Impact, Validity, WallLaw};
 
 /// Impacts in a row without any time between them after which a sphere is wedged between walls and stays.
 const WEDGED: u32 = 64;
@@ -191,14 +191,14 @@ impl<D: Domain> Walk<'_, D> {
                 ..stay(Event::Rebound)
             };
         };
-        if out.fate == LawFate::Capture
+        if out.fate == Fate::Capture
             && let Some(after) = glance(law, &impact, &out)
         {
             return after;
         }
         After {
             bounces: true,
-            event: if out.fate == LawFate::Capture { Event::Capture } else { Event::Rebound },
+            event: if out.fate == Fate::Capture { Event::Capture } else { Event::Rebound },
             velocity: out.velocity,
             spin: out.spin,
             restitution: out.restitution,
@@ -338,7 +338,7 @@ fn is_held_at_rest(law: &WallLaw, impact: &Impact) -> bool {
     const SLOWEST: f64 = 1e-9;
     let approaching =
         Impact { velocity: sub(impact.wall_velocity, scale(impact.normal, SLOWEST)), spin: [0.0; 3], ..*impact };
-    let captures = law.impact(&approaching).is_ok_and(|out| out.fate == LawFate::Capture);
+    let captures = law.impact(&approaching).is_ok_and(|out| out.fate == Fate::Capture);
     captures && !matches!(law.normal(), NormalLaw::Table(_))
 }
 
@@ -392,14 +392,14 @@ pub(super) fn record(lane: &Lane, time: f64, hit: &Hit, v: Vec3, spin: Vec3, aft
 
 impl Event {
     /// The fate of a particle that this ends.
-    pub fn ends(self) -> Option<Fate> {
+    pub fn ends(self) -> Option<ParticleFate> {
         match self {
             Self::Rebound | Self::RollOff | Self::SlideOff | Self::LiftOff => None,
-            Self::Capture => Some(Fate::Captured),
-            Self::Settle => Some(Fate::Settled),
-            Self::Trap => Some(Fate::Trapped),
-            Self::Escape => Some(Fate::Escaped),
-            Self::Remove(_) => Some(Fate::Removed),
+            Self::Capture => Some(ParticleFate::Captured),
+            Self::Settle => Some(ParticleFate::Settled),
+            Self::Trap => Some(ParticleFate::Trapped),
+            Self::Escape => Some(ParticleFate::Escaped),
+            Self::Remove(_) => Some(ParticleFate::Removed),
         }
     }
 }

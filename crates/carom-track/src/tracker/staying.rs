@@ -8,7 +8,7 @@ use super::meeting::{After, put, record};
 use super::walk::finish;
 use crate::domain::{Domain, Hit};
 use crate::geometry::Meeting;
-use crate::record::{Event, Fate, Sink};
+use crate::record::{Event, ParticleFate, Sink};
 use crate::vector::{Vec3, dot, norm, sub};
 use carom::{Energy, Validity};
 
@@ -52,14 +52,14 @@ impl<D: Domain> Walk<'_, D> {
             let ending = contact.run(trace);
             self.bring(crew, l, &contact, sink);
             match ending {
-                Ending::Rests => break (Some(Event::Settle), Some(Fate::Settled)),
-                Ending::TimeIsUp => break (None, Some(Fate::Sliding)),
+                Ending::Rests => break (Some(Event::Settle), Some(ParticleFate::Settled)),
+                Ending::TimeIsUp => break (None, Some(ParticleFate::Sliding)),
                 Ending::Stalls => {
                     sink.stalled();
-                    break (None, Some(Fate::Sliding));
+                    break (None, Some(ParticleFate::Sliding));
                 }
                 Ending::Leaves(event) => break (Some(event), None),
-                Ending::Lost => break (None, Some(Fate::Stuck)),
+                Ending::Lost => break (None, Some(ParticleFate::Stuck)),
                 Ending::Meets(hit) => {
                     blows += 1;
                     let off = contact.left_by();
@@ -72,7 +72,7 @@ impl<D: Domain> Walk<'_, D> {
                     self.struck(crew, l, &hit, &before, &after, sink);
                     match ends {
                         Some(fate) => return finish(crew, l, fate, Some(hit.wall), sink),
-                        None if wedged => break (Some(Event::Settle), Some(Fate::Settled)),
+                        None if wedged => break (Some(Event::Settle), Some(ParticleFate::Settled)),
                         None if !stays => return self.fly_on(crew, l, began.0),
                         None => {}
                     }
@@ -80,7 +80,7 @@ impl<D: Domain> Walk<'_, D> {
             }
         };
         let wall = contact.wall;
-        if fate == Some(Fate::Settled) {
+        if fate == Some(ParticleFate::Settled) {
             let velocity = self.domain.walls().list().get(wall).map_or([0.0; 3], |w| w.velocity);
             put(crew, l, contact.place(), velocity, [0.0; 3]);
         }
@@ -88,7 +88,7 @@ impl<D: Domain> Walk<'_, D> {
             self.end_row(crew, l, &contact, (began.1, contact.motion), event, sink);
         }
         match fate {
-            Some(fate) => finish(crew, l, fate, (fate != Fate::Stuck).then_some(wall), sink),
+            Some(fate) => finish(crew, l, fate, (fate != ParticleFate::Stuck).then_some(wall), sink),
             None => self.fly_on(crew, l, began.0),
         }
     }
@@ -122,9 +122,9 @@ impl<D: Domain> Walk<'_, D> {
             match ending {
                 Ending::Stalls => {
                     sink.stalled();
-                    return finish(crew, l, Fate::Airborne, None, sink);
+                    return finish(crew, l, ParticleFate::Airborne, None, sink);
                 }
-                Ending::Lost => return finish(crew, l, Fate::Stuck, None, sink),
+                Ending::Lost => return finish(crew, l, ParticleFate::Stuck, None, sink),
                 // held in a corner: it stays there as long as it is pushed
                 Ending::Rests => {
                     crew.time[l] = until;
@@ -145,7 +145,7 @@ impl<D: Domain> Walk<'_, D> {
             }
         }
         if crew.time[l] >= self.settings.until {
-            return finish(crew, l, Fate::Airborne, None, sink);
+            return finish(crew, l, ParticleFate::Airborne, None, sink);
         }
         self.fly_on(crew, l, began);
     }

@@ -4,7 +4,7 @@ use crate::dynamics::Dynamics;
 use crate::flow::{Flow, Fluid};
 use crate::force::{Drag, Forces};
 use crate::geometry::{Cylinder, Plane, Shape};
-use crate::record::{End, Event, Fate, ImpactRecord};
+use crate::record::{End, Event, ImpactRecord, ParticleFate};
 
 const G: f64 = 9.81;
 
@@ -118,7 +118,7 @@ fn fall_and_bounces_in_vacuum_are_analytic_to_1e_9_until_it_settles() {
     // nothing rubs: it slides on
     assert!(log.impacts.iter().all(|i| i.event == Event::Rebound));
     let end = log.ends[0];
-    assert_eq!((end.fate, end.time), (Fate::Sliding, 10.0));
+    assert_eq!((end.fate, end.time), (ParticleFate::Sliding, 10.0));
     assert!((end.velocity[0] / 0.3 - 1.0).abs() < 1e-12 && (end.position[0] / 3.0 - 1.0).abs() < 1e-9, "{end:?}");
 }
 
@@ -133,7 +133,7 @@ fn a_perfect_bouncer_bounces_to_the_end() {
         let time = fall * (2 * n + 1) as f64;
         assert!((hit.time / time - 1.0).abs() < 1e-9, "{n}: {} {time}", hit.time);
     }
-    assert_eq!(log.ends[0].fate, Fate::Airborne);
+    assert_eq!(log.ends[0].fate, ParticleFate::Airborne);
     assert_eq!(log.ends[0].time, 10.0);
 }
 
@@ -177,7 +177,7 @@ fn drag_matches_an_independent_integration() {
     let hit = log.impacts[0];
     assert!((hit.time / time - 1.0).abs() < 1e-7, "{} {time}", hit.time);
     assert!((hit.normal_speed_in / speed - 1.0).abs() < 1e-7, "{} {speed}", hit.normal_speed_in);
-    assert_eq!(log.ends[0].fate, Fate::Trapped);
+    assert_eq!(log.ends[0].fate, ParticleFate::Trapped);
 }
 
 fn channel() -> AnyDomain {

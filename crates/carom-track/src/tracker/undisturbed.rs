@@ -9,7 +9,7 @@ use super::walk::finish;
 use crate::domain::Domain;
 use crate::force::Drag;
 use crate::geometry::{Shape, Wall};
-use crate::record::{Fate, Sink};
+use crate::record::{ParticleFate, Sink};
 use crate::vector::{Vec3, add, dot, norm, scale, sub};
 
 /// What moves a sphere in a fluid that is alike everywhere.
@@ -36,7 +36,7 @@ impl<D: Domain> Walk<'_, D> {
         let lasts = until - crew.time[l];
         if norm(v) == 0.0 && norm(a) == 0.0 && norm(spin) == 0.0 {
             crew.time[l] = if lasts.is_finite() { until } else { crew.time[l] };
-            finish(crew, l, Fate::Airborne, None, sink);
+            finish(crew, l, ParticleFate::Airborne, None, sink);
             return true;
         }
         if self.dynamics.need_place(self.domain)
@@ -75,7 +75,7 @@ impl<D: Domain> Walk<'_, D> {
             }
             crew.time[l] = until;
         }
-        finish(crew, l, Fate::Airborne, None, sink);
+        finish(crew, l, ParticleFate::Airborne, None, sink);
         true
     }
 }

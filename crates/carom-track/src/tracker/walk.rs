@@ -13,7 +13,7 @@ use crate::force::Sphere;
 use crate::geometry::evaluate;
 use crate::integrate::{Control, Derivative, Lanes, Motion, Rates, growth};
 use crate::lanes::{bits, mask, take_lowest};
-use crate::record::{End, Fate, Sink};
+use crate::record::{End, ParticleFate, Sink};
 use crate::vector::{Vec3, add};
 use carom::instructions::InstructionSet;
 
@@ -152,15 +152,15 @@ impl<D: Domain> Walk<'_, D> {
         (crew.time[l], crew.stop[l], crew.steps[l]) = (particle.time, self.settings.until, 0);
         (crew.busy[l], crew.quiet[l]) = (true, mask(!trace && !self.has_chance()));
         if particle.time >= self.settings.until {
-            finish(crew, l, Fate::Airborne, None, sink);
+            finish(crew, l, ParticleFate::Airborne, None, sink);
             return;
         }
         if outside {
-            finish(crew, l, Fate::Stuck, None, sink);
+            finish(crew, l, ParticleFate::Stuck, None, sink);
             return;
         }
         if let Some(overlap) = self.domain.walls().overlap(particle.position, crew.bodies.radius[l]) {
-            finish(crew, l, Fate::Overlapping, Some(overlap.wall), sink);
+            finish(crew, l, ParticleFate::Overlapping, Some(overlap.wall), sink);
             return;
         }
         self.refresh_one(crew, l);
@@ -287,7 +287,7 @@ impl<D: Domain> Walk<'_, D> {
         let good = crew.step.error_squared[l] <= 1.0;
         if crew.steps[l] > self.settings.max_steps || (!good && crew.time[l] + h == crew.time[l]) {
             sink.stalled();
-            finish(crew, l, Fate::Airborne, None, sink);
+            finish(crew, l, ParticleFate::Airborne, None, sink);
         } else if !good {
             crew.next[l] = h * factor.min(0.9);
         } else {
@@ -355,7 +355,7 @@ impl<D: Domain> Walk<'_, D> {
         }
         meeting::put(crew, l, x, v, spin);
         if self.domain.is_lost(crew.here[l]) || crew.lanes[l].round > LOST {
-            return finish(crew, l, Fate::Stuck, None, sink);
+            return finish(crew, l, ParticleFate::Stuck, None, sink);
         }
         let lane = &mut crew.lanes[l];
         lane.fitted = false;
@@ -407,7 +407,7 @@ impl<D: Domain> Walk<'_, D> {
         }
         (crew.rates.drag[l], crew.rates.torque[l]) = (crew.step.rates.drag[l], crew.step.rates.torque[l]);
         if stopped && stop >= self.settings.until {
-            finish(crew, l, Fate::Airborne, None, sink);
+            finish(crew, l, ParticleFate::Airborne, None, sink);
         } else if self.has_chance() {
             self.renew(crew, l, h);
         }
@@ -424,7 +424,7 @@ pub(super) fn least_step(time: f64) -> f64 {
 pub(super) fn finish<const W: usize, H>(
     crew: &mut Crew<W, H>,
     l: usize,
-    fate: Fate,
+    fate: ParticleFate,
     wall: Option<usize>,
     sink: &mut dyn Sink,
 ) {

@@ -4,7 +4,7 @@ use super::*;
 use carom_track::flow::{Channel, Flow, Fluid, Pipe, Profile, Stagnation, Symmetry};
 use carom_track::geometry::Cylinder;
 use carom_track::random::{Purpose, Stream};
-use carom_track::record::Fate;
+use carom_track::record::ParticleFate;
 
 /// Penetration of a laminar pipe (Gormley & Kennedy 1949, Proc. R. Ir. Acad. 52A, 163–169).
 fn gormley_kennedy(mu: f64) -> f64 {
@@ -38,7 +38,7 @@ fn penetration(mu: f64, spheres: u64, seed: u64) -> f64 {
     };
     let domain = AnyDomain::new(flow, walls);
     let log = track(&domain, &d, &[Behavior::Trap, Behavior::Escape], (f64::INFINITY, seed), (0..spheres).map(start));
-    let escaped = log.ends.iter().filter(|e| e.fate == Fate::Escaped).count();
+    let escaped = log.ends.iter().filter(|e| e.fate == ParticleFate::Escaped).count();
     let steps: u64 = log.ends.iter().map(|e| e.steps).sum();
     let got = escaped as f64 / spheres as f64;
     println!("µ {mu}, seed {seed}: {got:.4}, Gormley & Kennedy {:.4}, {} steps", gormley_kennedy(mu), steps / spheres);

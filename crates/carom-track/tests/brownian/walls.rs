@@ -4,7 +4,7 @@ use super::*;
 use carom_track::flow::Flow;
 use carom_track::geometry::Room;
 use carom_track::random::{Purpose, Stream};
-use carom_track::record::Fate;
+use carom_track::record::ParticleFate;
 
 fn still(walls: Vec<Wall>) -> AnyDomain {
     AnyDomain::new(Flow::Still, walls)
@@ -20,7 +20,7 @@ fn even(spheres: u64, seed: u64, width: f64) {
     let domain = still(vec![Wall::new("room", Shape::Room(room))]);
     let until = 0.5 * wide * wide / s.diffusivity;
     let log = track(&domain, &d, &[elastic()], (until, seed), (0..spheres).map(|i| sphere(i, diameter, [0.0; 3])));
-    assert!(log.ends.iter().all(|e| e.fate == Fate::Airborne), "some settled");
+    assert!(log.ends.iter().all(|e| e.fate == ParticleFate::Airborne), "some settled");
     let mut bins = [0u32; 20];
     for x in log.ends.iter().flat_map(|e| e.position) {
         bins[(((x / wide + 0.5) * 20.0) as usize).min(19)] += 1;
@@ -59,7 +59,7 @@ fn barometric(spheres: u64, seed: u64, scale: f64) {
     let until = 8.0 * height * height / s.diffusivity;
     let starts = (0..spheres).map(|i| sphere(i, 1e-7, [0.0, height, 0.0]));
     let log = track(&domain, &d, &[elastic()], (until, seed), starts);
-    assert!(log.ends.iter().all(|e| e.fate == Fate::Airborne), "some settled");
+    assert!(log.ends.iter().all(|e| e.fate == ParticleFate::Airborne), "some settled");
     let mut heights: Vec<_> = log.ends.iter().map(|e| e.position[1] / height).collect();
     let mean = heights.iter().sum::<f64>() / spheres as f64;
     let off = kolmogorov(&mut heights, |h| 1.0 - (-h).exp());
@@ -132,7 +132,7 @@ fn survival(spheres: u64, seed: u64, width: f64, time: f64) {
     let start = |i| Stream::new(seed, i, Purpose::Injection, 0).uniform() * wide;
     let starts = (0..spheres).map(|i| sphere(i, 6e-8, [0.0, start(i), 0.0]));
     let log = track(&domain, &d, &[Behavior::Trap, Behavior::Trap], (until, seed), starts);
-    let left = log.ends.iter().filter(|e| e.fate == Fate::Airborne).count() as f64 / spheres as f64;
+    let left = log.ends.iter().filter(|e| e.fate == ParticleFate::Airborne).count() as f64 / spheres as f64;
     let all = wide + 2.0 * behind;
     let t = s.diffusivity * (until - s.tau) / (all * all);
     let pi = std::f64::consts::PI;
@@ -184,7 +184,7 @@ fn round_and_triangulated_walls_keep_what_is_between_them() {
     let (inner, outer) = (0.2 * wide + 3e-8, wide - 3e-8);
     for e in &log.ends {
         let r = e.position[1].hypot(e.position[2]);
-        assert!(e.fate == Fate::Airborne && r > inner * 0.999_999 && r < outer * 1.000_001, "{e:?}");
+        assert!(e.fate == ParticleFate::Airborne && r > inner * 0.999_999 && r < outer * 1.000_001, "{e:?}");
         assert!(e.position[0] > -wide, "{e:?}");
     }
 }

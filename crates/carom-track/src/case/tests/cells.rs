@@ -1,7 +1,7 @@
 //! Cases through a stored result of OpenFOAM: a block of 3 × 2 × 2 cells with every kind of patch.
 
 use super::*;
-use crate::record::Fate;
+use crate::record::ParticleFate;
 use crate::run::{RunOptions, Silent, run};
 use std::path::PathBuf;
 
@@ -53,9 +53,9 @@ fn spheres_go_through_it_and_have_a_fate() {
     let summary = run(&case, &RunOptions::default(), &Silent).unwrap();
     assert_eq!(summary.injected.count, 200);
     let count = |fate| summary.count(fate);
-    assert_eq!(count(Fate::Trapped) + count(Fate::Escaped), 200, "{summary:?}");
+    assert_eq!(count(ParticleFate::Trapped) + count(ParticleFate::Escaped), 200, "{summary:?}");
     // the wind blows off the lower wall: what starts within a radius of it alone is kept
-    assert!(count(Fate::Escaped) > 150, "{summary:?}");
+    assert!(count(ParticleFate::Escaped) > 150, "{summary:?}");
 }
 
 #[test]
@@ -92,5 +92,5 @@ fn names_and_mirrors() {
     let case = read(&mirror).unwrap();
     assert_eq!(case.domain.walls().len(), 2);
     let summary = run(&case, &RunOptions::default(), &Silent).unwrap();
-    assert_eq!(summary.count(Fate::Trapped), 0);
+    assert_eq!(summary.count(ParticleFate::Trapped), 0);
 }

@@ -1,5 +1,5 @@
 use super::*;
-use crate::record::Fate;
+use crate::record::ParticleFate;
 use crate::run::{RunOptions, Silent, run};
 
 const POINT: &str = "position = [\"0 m\", \"25 mm\", \"0 m\"]";
@@ -87,8 +87,8 @@ trajectories = 0
     );
     let case = read(&text).unwrap_or_else(|e| panic!("{}", e.located("case.toml", &text)));
     let summary = run(&case, &RunOptions::default(), &Silent).unwrap();
-    assert_eq!(summary.count(Fate::Trapped) + summary.count(Fate::Escaped), 1000, "seed 1");
-    summary.count(Fate::Trapped) as f64 / 1000.0
+    assert_eq!(summary.count(ParticleFate::Trapped) + summary.count(ParticleFate::Escaped), 1000, "seed 1");
+    summary.count(ParticleFate::Trapped) as f64 / 1000.0
 }
 
 #[test]

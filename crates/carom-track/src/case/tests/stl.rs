@@ -1,7 +1,7 @@
 //! Runs whose walls are files of triangles.
 
 use super::*;
-use crate::record::{End, Fate, ImpactRecord, Sink};
+use crate::record::{End, ImpactRecord, ParticleFate, Sink};
 use crate::tracker::Particle;
 
 /// What happened to each particle.
@@ -52,7 +52,7 @@ fn run(case: &Case) -> Log {
     log
 }
 
-fn count(log: &Log, fate: Fate) -> usize {
+fn count(log: &Log, fate: ParticleFate) -> usize {
     log.ends.iter().filter(|e| e.fate == fate).count()
 }
 
@@ -80,14 +80,14 @@ fn every_solid_of_a_file_is_a_wall_or_one_by_name() {
     let all = with_file(&case(TRAP, &two_above(), "10 ms"), stl.as_bytes()).unwrap();
     assert_eq!(all.notes[0], "wall 'w': 4 triangles of w.stl, 2 solids in the file, 2 mm x 0 m x 2 mm");
     let log = run(&all);
-    assert_eq!(count(&log, Fate::Trapped), 2);
+    assert_eq!(count(&log, ParticleFate::Trapped), 2);
     // faces are numbered as in the file
     let mut faces: Vec<_> = log.impacts.iter().map(|i| (i.particle, i.face.unwrap())).collect();
     faces.sort_unstable();
     assert!(faces[0].1 < 2 && (2..4).contains(&faces[1].1), "{faces:?}");
     let of = |solid: &str| TRAP.replace("file =", &format!("solid = \"{solid}\", file ="));
     let right = with_file(&case(&of("right"), &two_above(), "10 ms"), stl.as_bytes()).unwrap();
-    assert_eq!(count(&run(&right), Fate::Trapped), 1);
+    assert_eq!(count(&run(&right), ParticleFate::Trapped), 1);
     let error = with_file(&case(&of("rigth"), &two_above(), "10 ms"), stl.as_bytes()).unwrap_err();
     assert!(error.to_string().contains("no triangles in a solid 'rigth'"), "{error}");
 }
@@ -106,7 +106,7 @@ fn what_is_missing_in_a_file_is_refused_or_told() {
     let needle = " facet normal 0 1 0\n  outer loop\n   vertex 0 0 0\n   vertex 1 0 0\n   vertex 2 0 0\n  endloop\n endfacet\nendsolid";
     let told = with_file(&text, square("", -1.0).replace("endsolid", needle).as_bytes()).unwrap();
     assert!(told.notes[0].ends_with("; left out: 1 triangle without area"), "{:?}", told.notes);
-    assert_eq!(count(&run(&told), Fate::Trapped), 1);
+    assert_eq!(count(&run(&told), ParticleFate::Trapped), 1);
 }
 
 #[test]
@@ -130,7 +130,7 @@ fn points_aimed_at_a_diagonal_are_all_trapped() {
         .collect();
     let wall = format!("{TRAP}\ncontact_at = \"center\"");
     let log = run(&with_file(&case(&wall, &injections, "10 ms"), &stl).unwrap());
-    assert_eq!(count(&log, Fate::Trapped), 99);
+    assert_eq!(count(&log, ParticleFate::Trapped), 99);
 }
 
 #[test]

@@ -181,7 +181,7 @@ fn the_faces_of_a_wall_of_triangles_hold_what_it_kept() {
     let (numbers, masses) = (integers("number"), floats("mass"));
     assert_eq!(numbers.iter().sum::<i64>(), 3000);
     assert_eq!(integers("impacts"), numbers);
-    let kept = summary.fates[crate::record::Fate::Trapped as usize].mass.value();
+    let kept = summary.fates[crate::record::ParticleFate::Trapped as usize].mass.value();
     assert!((masses.iter().sum::<f64>() - kept).abs() < 1e-14 * kept);
     let (speeds, angles) = (floats("mean_impact_speed"), floats("mean_impact_angle"));
     for cell in 3000..3012 {

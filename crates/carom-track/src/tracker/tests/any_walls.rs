@@ -85,11 +85,11 @@ proptest! {
             prop_assert!(gap.abs() < 1e-9 * r + 1e-14, "impact {gap} m off {}", domain.walls()[i.wall].name);
         }
         let end = paths.log.ends[0];
-        if matches!(end.fate, Fate::Settled | Fate::Sliding) {
+        if matches!(end.fate, ParticleFate::Settled | ParticleFate::Sliding) {
             let gap = domain.walls()[end.wall.unwrap()].shape.distance(end.position) - r;
             prop_assert!(gap.abs() < 1e-9 * r + 1e-14, "settled {gap} m off");
         } else {
-            prop_assert_eq!(end.fate, Fate::Airborne);
+            prop_assert_eq!(end.fate, ParticleFate::Airborne);
             prop_assert_eq!(end.time, 0.5);
         }
         if vacuum {
@@ -117,6 +117,6 @@ fn a_sphere_driven_along_a_groove_is_blown_out_of_it() {
     let v = [2.400293785861977, -4.988245807374214, 2.6474216303883624];
     let p = Particle { diameter: 0.0005869892327772226, density: 2500.0, ..sphere(0, [0.0; 3], v) };
     let log = track(&domain, &d, &behaviors, Settings { until: 0.5, max_steps: 3000, ..settings() }, &[p]);
-    assert_eq!(log.ends[0].fate, Fate::Airborne);
+    assert_eq!(log.ends[0].fate, ParticleFate::Airborne);
     assert!(log.ends[0].steps < 3000, "{}", log.ends[0].steps);
 }

@@ -62,7 +62,12 @@ fn in_a_linear_field_paths_are_those_of_the_formula() {
         let got = fly(&mesh, &d, Behavior::Escape, 10.0, &starts);
         assert_eq!(got.stalled, 0);
         for (got, want) in got.ends.iter().zip(&want.ends) {
-            assert_eq!((got.fate, want.fate), (Fate::Escaped, Fate::Escaped), "{kind:?} {}", got.particle.number);
+            assert_eq!(
+                (got.fate, want.fate),
+                (ParticleFate::Escaped, ParticleFate::Escaped),
+                "{kind:?} {}",
+                got.particle.number
+            );
             let off = crate::vector::norm(crate::vector::sub(got.position, want.position));
             // the way is about 1 m, the tolerance 1e-6 of it
             assert!(off < 2e-6, "{kind:?} {}: {off:e}", got.particle.number);
@@ -103,7 +108,7 @@ fn nothing_is_lost_in_shaken_meshes() {
         let log = fly(&mesh, &floating(Drag::SchillerNaumann), bounce(0.7), 0.5, &starts(30, 2, 2.0));
         assert_eq!((log.ends.len(), log.stalled), (30, 0));
         for end in &log.ends {
-            assert_ne!(end.fate, Fate::Stuck, "{kind:?} {end:?}");
+            assert_ne!(end.fate, ParticleFate::Stuck, "{kind:?} {end:?}");
             assert!(end.position.iter().all(|c| *c > 0.0 && *c < 1.0), "{kind:?} {end:?}");
         }
     }
@@ -117,7 +122,7 @@ fn in_meshes_with_turned_cells_every_sphere_has_a_fate() {
         assert!(Cells::new(&snapshot).unwrap().inverted() > 0, "{kind:?}");
         let log = fly(&mesh, &floating(Drag::SchillerNaumann), bounce(0.7), 0.3, &starts(30, 2, 2.0));
         assert_eq!((log.ends.len(), log.stalled), (30, 0), "{kind:?}");
-        let stuck = log.ends.iter().filter(|e| e.fate == Fate::Stuck).count();
+        let stuck = log.ends.iter().filter(|e| e.fate == ParticleFate::Stuck).count();
         assert!(stuck == 0, "{kind:?} {stuck}");
         assert!(log.ends.iter().all(|e| e.position.iter().all(|c| *c > -1e-6 && *c < 1.0 + 1e-6)));
     }
@@ -275,10 +280,10 @@ fn a_wedge_goes_on_round_its_axis() {
         let end = log.ends[0];
         let free = [0, 1, 2].map(|c| start.position[c] + end.time * v[c]);
         let radius = |x: Vec3| (x[1] * x[1] + x[2] * x[2]).sqrt();
-        assert_ne!(end.fate, Fate::Stuck, "{i} {start:?}");
+        assert_ne!(end.fate, ParticleFate::Stuck, "{i} {start:?}");
         assert!((radius(end.position) - radius(free)).abs() < 1e-7, "{i} {} {}", radius(end.position), radius(free));
         assert!((end.position[0] - free[0]).abs() < 1e-7);
-        if end.fate == Fate::Escaped {
+        if end.fate == ParticleFate::Escaped {
             // the wall is a polygon: between r cos 2.5° and r
             assert!(radius(free) > half.cos() - 1e-6 && radius(free) < 1.0 + 1e-6, "{i} {}", radius(free));
         }

@@ -33,7 +33,7 @@ fn down_a_slope_without_friction_as_in_free_fall_along_it() {
     let log = one(vec![plane("w", [0.0; 3], n)], &bounce(0.5), &weight([0.0, -G, 0.0]), 1.0, small(start, [0.0; 3]));
     let end = log.ends[0];
     let s = norm([0, 1, 2].map(|c| end.position[c] - start[c]));
-    assert_eq!((end.fate, end.time), (Fate::Sliding, 1.0));
+    assert_eq!((end.fate, end.time), (ParticleFate::Sliding, 1.0));
     assert!((s / (0.5 * G * angle.sin()) - 1.0).abs() < 1e-6, "{s}");
     assert!((dot(end.position, n) - 5e-5).abs() < 1e-13);
 }
@@ -43,7 +43,7 @@ fn along_a_floor_without_friction_at_the_same_speed() {
     let p = small([0.0, 6e-5, 0.0], [10.0, 0.0, 0.0]);
     let log = one(vec![plane("w", [0.0; 3], [0.0, 1.0, 0.0])], &bounce(0.1), &weight([0.0, -G, 0.0]), 1.0, p);
     let end = log.ends[0];
-    assert_eq!(end.fate, Fate::Sliding);
+    assert_eq!(end.fate, ParticleFate::Sliding);
     assert!((end.position[0] / 10.0 - 1.0).abs() < 1e-9 && end.steps < 200, "{end:?}");
 }
 
@@ -53,7 +53,7 @@ fn in_a_groove_the_only_rest_is_its_bottom() {
     let walls = vec![plane("L", [0.0; 3], n(1.0)), plane("R", [0.0; 3], n(-1.0))];
     let log = one(walls, &bounce(0.3), &weight([0.0, -G, 0.0]), 2.0, small([5e-4, 2e-3, 0.0], [0.0; 3]));
     let end = log.ends[0];
-    assert_eq!(end.fate, Fate::Settled, "{end:?}");
+    assert_eq!(end.fate, ParticleFate::Settled, "{end:?}");
     assert!(end.position[0].abs() < 1e-7 && (end.position[1] / (5e-5 * 2f64.sqrt()) - 1.0).abs() < 1e-3, "{end:?}");
     assert_eq!(log.impacts.iter().filter(|i| i.event == Event::Settle).count(), 1);
 }
@@ -79,7 +79,7 @@ fn friction_ends_sliding_in_rolling_with_five_sevenths_of_the_speed() {
     let p = small([0.0, 5e-5, 0.0], [v, 0.0, 0.0]);
     let log = one(vec![plane("w", [0.0; 3], [0.0, 1.0, 0.0])], &rough(0.5, f), &weight([0.0, -G, 0.0]), 1.0, p);
     let end = log.ends[0];
-    assert_eq!(end.fate, Fate::Sliding, "{end:?}");
+    assert_eq!(end.fate, ParticleFate::Sliding, "{end:?}");
     let rolling = 5.0 / 7.0 * v;
     let time = 2.0 / 7.0 * v / (f * G);
     let x = v * time - 0.5 * f * G * time * time + rolling * (1.0 - time);
@@ -118,7 +118,7 @@ fn a_sphere_rolls_down_a_slope_and_slides_down_a_steep_one() {
             small(start, [0.0; 3]),
         );
         let end = log.ends[0];
-        assert_eq!(end.fate, Fate::Sliding);
+        assert_eq!(end.fate, ParticleFate::Sliding);
         norm(end.velocity) / 0.5
     };
     let sine = |d: f64| d.to_radians().sin();
@@ -141,7 +141,7 @@ fn friction_brings_a_sphere_off_the_edge_of_a_block_with_its_rows() {
     assert!((end.energy.friction - 2.0 / 7.0).abs() < 1e-6, "{:?}", end.energy);
     assert!((end.energy.friction + end.energy.kept - 1.0).abs() < 1e-12);
     // and then it falls
-    assert!(log.ends[0].fate == Fate::Airborne && log.ends[0].position[1] < -1e-3, "{:?}", log.ends[0]);
+    assert!(log.ends[0].fate == ParticleFate::Airborne && log.ends[0].position[1] < -1e-3, "{:?}", log.ends[0]);
 }
 
 #[test]
@@ -155,7 +155,7 @@ fn an_updraught_lifts_a_sphere_off_its_floor() {
     let log = track(&domain, &dynamics(Drag::SchillerNaumann), &[bounce(0.5)], settings, &[p]);
     let off = log.impacts.iter().find(|i| i.event == Event::LiftOff).unwrap();
     assert!(off.position[0] > 0.01 && off.position[0] < 0.012, "{off:?}");
-    assert!(log.ends[0].fate == Fate::Airborne && log.ends[0].position[1] > 1e-4, "{:?}", log.ends[0]);
+    assert!(log.ends[0].fate == ParticleFate::Airborne && log.ends[0].position[1] > 1e-4, "{:?}", log.ends[0]);
 }
 
 #[test]
@@ -173,7 +173,7 @@ fn kicks_and_eddies_hold_nothing_on_an_elastic_wall() {
         let settings = Settings { until: 3e-4, tolerance: 1e-3, ..settings() };
         let log = track(&domain, &d, &[bounce(1.0)], settings, &particles);
         assert!(log.impacts.len() > 200, "{}", log.impacts.len());
-        let other: Vec<_> = log.ends.iter().filter(|e| e.fate != Fate::Airborne).collect();
+        let other: Vec<_> = log.ends.iter().filter(|e| e.fate != ParticleFate::Airborne).collect();
         assert!(other.is_empty(), "{gravity}: {other:?}");
     }
 }
@@ -184,6 +184,6 @@ fn without_a_settle_height_endless_bounces_still_end() {
     let settings = Settings { until: 1.0, settle_height: SettleHeight::Length(0.0), ..settings() };
     let domain = AnyDomain::new(Flow::Still, vec![plane("w", [0.0; 3], [0.0, 1.0, 0.0])]);
     let log = track(&domain, &weight([0.0, -G, 0.0]), &[bounce(0.5)], settings, &[p]);
-    assert_eq!(log.ends[0].fate, Fate::Sliding);
+    assert_eq!(log.ends[0].fate, ParticleFate::Sliding);
     assert!((log.ends[0].position[0] - 0.3).abs() < 1e-9, "{:?}", log.ends[0]);
 }

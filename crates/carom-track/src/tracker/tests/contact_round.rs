@@ -46,7 +46,7 @@ fn in_a_pipe_it_swings_as_a_pendulum_and_rolling_slows_it() {
     // a rolling sphere has 7/5 of the inertia
     for (behavior, inertia) in [(bounce(0.0), 1.0f64), (sticky(10.0), 1.4)] {
         let end = follow(&round(true), behavior, quarter * inertia.sqrt(), touching(true, angle)).ends[0];
-        assert_eq!(end.fate, Fate::Sliding, "{end:?}");
+        assert_eq!(end.fate, ParticleFate::Sliding, "{end:?}");
         let speed = (2.0 * G * height / inertia).sqrt();
         assert!((norm(end.velocity) / speed - 1.0).abs() < 1e-4, "{inertia}: {} {speed}", norm(end.velocity));
         assert!(end.position[0].abs() < 1e-4 * length, "{inertia}: {:?}", end.position);
@@ -62,7 +62,7 @@ fn off_a_rod_it_slides_where_the_weight_no_longer_bends_its_path() {
     // m v²/l = m g cos φ with v² = 2 g l (cos φ₀ − cos φ)
     let cosine = off.position[1] / (RADIUS + SMALL);
     assert!((cosine - 2.0 / 3.0 * angle.cos()).abs() < 1e-4, "{cosine} {}", 2.0 / 3.0 * angle.cos());
-    assert_eq!(log.ends[0].fate, Fate::Airborne);
+    assert_eq!(log.ends[0].fate, ParticleFate::Airborne);
 }
 
 #[test]
@@ -72,7 +72,7 @@ fn a_belt_takes_along_two_sevenths_of_its_speed() {
         let domain = AnyDomain::new(Flow::Still, vec![belt]);
         let p = Particle { diameter: 2.0 * SMALL, density: 1000.0, ..sphere(0, [0.0, 2.0 * SMALL, 0.0], [0.0; 3]) };
         let end = follow(&domain, sticky(friction), 5.0, p).ends[0];
-        assert_eq!(end.fate, Fate::Sliding, "{end:?}");
+        assert_eq!(end.fate, ParticleFate::Sliding, "{end:?}");
         assert!((end.velocity[0] - 0.2).abs() < 1e-6, "{friction}: {:?}", end.velocity);
         // the contact point moves with the belt
         let slip = end.velocity[0] + end.spin[2] * SMALL - 0.7;

@@ -253,7 +253,7 @@ fn what_slides_and_rolls_follows_the_fluid_too() {
             let p = grain(0, d, [0.0, 0.6 * d, 0.0], [0.0; 3]);
             let log = track(&domain, &dynamics, &rubs, settings, &[p]);
             let end = log.ends[0];
-            assert_eq!(end.fate, Fate::Sliding, "{d:e} {torque}: {end:?}");
+            assert_eq!(end.fate, ParticleFate::Sliding, "{d:e} {torque}: {end:?}");
             // the fluid's velocity at the centre, less what friction takes of a slider: u = 6 U y/H at the wall
             let u = 6.0 * 1.0 * 0.5 * d / 0.02;
             assert!(

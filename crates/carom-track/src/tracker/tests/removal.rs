@@ -32,15 +32,15 @@ fn held(text: &str) -> carom::removal::Removal {
 
 #[test]
 fn a_flow_faster_than_the_critical_one_removes_and_a_slower_one_does_not() {
-    assert!(fall(None).ends.iter().all(|e| e.fate == Fate::Captured));
+    assert!(fall(None).ends.iter().all(|e| e.fate == ParticleFate::Captured));
     for (mode, event) in
         [(None, Mode::Rolling), (Some(Mode::Sliding), Mode::Sliding), (Some(Mode::Lifting), Mode::Lifting)]
     {
         let critical = held(ADHESIVE).of(event).unwrap().friction_velocity;
         let at = |share: f64| fall(Some(Reentrainment { mode, friction_velocity: Some(share * critical) }));
-        assert!(at(0.999).ends.iter().all(|e| e.fate == Fate::Captured), "{mode:?}");
+        assert!(at(0.999).ends.iter().all(|e| e.fate == ParticleFate::Captured), "{mode:?}");
         let log = at(1.001);
-        assert!(log.ends.iter().all(|e| e.fate == Fate::Removed && e.velocity == [0.0; 3]), "{mode:?}");
+        assert!(log.ends.iter().all(|e| e.fate == ParticleFate::Removed && e.velocity == [0.0; 3]), "{mode:?}");
         assert!(log.impacts.iter().all(|i| i.event == Event::Remove(event)), "{mode:?}");
         // the impact itself is the capture it was
         let (kept, gone) = (fall(None).impacts, log.impacts);
@@ -55,9 +55,9 @@ fn a_flow_faster_than_the_critical_one_removes_and_a_slower_one_does_not() {
 fn the_flows_own_friction_velocity_counts_where_none_is_given() {
     let flow = Channel::new(Profile::Turbulent, 0.03, 10.0, &Fluid::default()).unwrap();
     let own = flow.friction_velocity();
-    for (factor, fate) in [(1.0, Fate::Captured), (0.002, Fate::Removed)] {
+    for (factor, fate) in [(1.0, ParticleFate::Captured), (0.002, ParticleFate::Removed)] {
         let text = format!("{ADHESIVE}roughness_factor = {factor}\n");
-        assert_eq!(own > held(&text).rolling.friction_velocity, fate == Fate::Removed, "{own}");
+        assert_eq!(own > held(&text).rolling.friction_velocity, fate == ParticleFate::Removed, "{own}");
         let log = fall_on(&text, Some(Reentrainment::default()));
         assert!(log.ends.iter().all(|e| e.fate == fate), "{factor}: {:?}", log.ends[0]);
     }

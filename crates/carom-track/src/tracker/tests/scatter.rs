@@ -59,7 +59,7 @@ fn spheres_come_to_rest_on_a_rough_floor() {
     let particles: Vec<_> = (0..20).map(|n| sphere(n, [0.0, 0.01, 0.0], [1.0, 0.0, 0.0])).collect();
     let log = track(&domain, &dynamics(Drag::SchillerNaumann), &[Behavior::Law(vec![rough])], settings(), &particles);
     for end in &log.ends {
-        assert_eq!(end.fate, Fate::Settled);
+        assert_eq!(end.fate, ParticleFate::Settled);
         assert!((end.position[1] - 45e-6).abs() < 1e-13, "{end:?}");
     }
     let most = log.impacts.len() / particles.len();

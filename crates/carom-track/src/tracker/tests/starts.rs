@@ -18,8 +18,8 @@ fn what_can_never_meet_a_wall_takes_one_step() {
         let domain = AnyDomain::new(Flow::Still, vec![wall]);
         let run = |until| track(&domain, &free(), &[Behavior::Trap], Settings { until, ..settings() }, &[p]).ends[0];
         let (never, later) = (run(f64::INFINITY), run(1e6));
-        assert_eq!((never.fate, never.position, never.steps), (Fate::Airborne, p.position, 0));
-        assert_eq!((later.fate, later.time, later.steps), (Fate::Airborne, 1e6, 0));
+        assert_eq!((never.fate, never.position, never.steps), (ParticleFate::Airborne, p.position, 0));
+        assert_eq!((later.fate, later.time, later.steps), (ParticleFate::Airborne, 1e6, 0));
         assert!((later.position[1] - 1_000_002.0).abs() < 1e-6);
     }
 }
@@ -30,7 +30,7 @@ fn one_that_is_thrown_up_and_held_down_is_no_such_sphere() {
     let p = sphere(0, [0.0, 1.0, 0.0], [0.0, 1.0, 0.0]);
     let settings = Settings { until: f64::INFINITY, ..settings() };
     let log = track(&domain, &dynamics(Drag::None), &[Behavior::Trap], settings, &[p]);
-    assert_eq!(log.ends[0].fate, Fate::Trapped);
+    assert_eq!(log.ends[0].fate, ParticleFate::Trapped);
 }
 
 #[test]
@@ -39,7 +39,7 @@ fn after_a_rebound_into_nothing_it_ends_too() {
     let p = sphere(0, [0.0, 1.0, 0.0], [0.0, -1.0, 0.0]);
     let settings = Settings { until: f64::INFINITY, ..settings() };
     let log = track(&domain, &free(), &[bounce(0.5)], settings, &[p]);
-    assert!(log.ends[0].fate == Fate::Airborne && log.ends[0].steps < 300, "{:?}", log.ends[0]);
+    assert!(log.ends[0].fate == ParticleFate::Airborne && log.ends[0].steps < 300, "{:?}", log.ends[0]);
 }
 
 #[test]
@@ -59,10 +59,10 @@ fn what_cannot_move_ends_at_once_and_what_barely_moves_does_not_stand_still() {
     let domain = AnyDomain::new(Flow::Still, vec![plane("w", [0.0; 3], [0.0, 1.0, 0.0])]);
     let rest = sphere(0, [0.0, 1e-3, 0.0], [0.0; 3]);
     let log = track(&domain, &free(), &[Behavior::Trap], settings(), &[rest]);
-    assert_eq!((log.ends[0].fate, log.ends[0].time, log.ends[0].steps), (Fate::Airborne, 10.0, 0));
+    assert_eq!((log.ends[0].fate, log.ends[0].time, log.ends[0].steps), (ParticleFate::Airborne, 10.0, 0));
     let falls = Particle { velocity: [0.0, -5e-324, 0.0], ..rest };
     let log = track(&domain, &dynamics(Drag::SchillerNaumann), &[Behavior::Trap], settings(), &[falls]);
-    assert!(log.ends[0].fate == Fate::Trapped && log.ends[0].steps < 500, "{:?}", log.ends[0]);
+    assert!(log.ends[0].fate == ParticleFate::Trapped && log.ends[0].steps < 500, "{:?}", log.ends[0]);
 }
 
 #[test]
@@ -74,7 +74,10 @@ fn a_sphere_that_starts_where_a_wall_is_is_not_followed() {
     let particles: Vec<_> = starts.iter().enumerate().map(|(n, x)| sphere(n as u64, *x, [0.0; 3])).collect();
     let log = track(&domain, &dynamics(Drag::None), &[Behavior::Trap], settings(), &particles);
     let fate = |n: u64| log.ends.iter().find(|e| e.particle.number == n).unwrap().fate;
-    assert_eq!([fate(0), fate(1), fate(2)], [Fate::Overlapping, Fate::Overlapping, Fate::Airborne]);
+    assert_eq!(
+        [fate(0), fate(1), fate(2)],
+        [ParticleFate::Overlapping, ParticleFate::Overlapping, ParticleFate::Airborne]
+    );
 }
 
 #[test]

@@ -62,7 +62,7 @@ fn by_tracker(flow: &Flow, p: &Particle, tolerance: f64) -> Landing {
     let settings = Settings { tolerance, ..settings() };
     let log = track(&domain, &dynamics(Drag::SchillerNaumann), &[Behavior::Trap], settings, &[*p]);
     let end = log.ends[0];
-    assert_eq!(end.fate, Fate::Trapped, "{p:?} at {tolerance}: {end:?}");
+    assert_eq!(end.fate, ParticleFate::Trapped, "{p:?} at {tolerance}: {end:?}");
     let hit = log.impacts[0];
     // the velocity at the impact, along x and down
     Landing { time: end.time, x: end.position, v: [hit.tangential_speed_in, -hit.normal_speed_in, 0.0] }

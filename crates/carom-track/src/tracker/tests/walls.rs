@@ -20,7 +20,7 @@ fn a_sphere_at_rest_on_the_floor_settles_at_once_and_one_against_a_side_wall_fal
     assert!((first(1).time - (2.0 * (0.01 - r) / G).sqrt()).abs() < 1e-12);
     // off the side wall one slides on: nothing rubs
     let fate = |n: u64| log.ends.iter().find(|e| e.particle.number == n).unwrap().fate;
-    assert_eq!([fate(0), fate(1), fate(2)], [Fate::Settled, Fate::Settled, Fate::Sliding]);
+    assert_eq!([fate(0), fate(1), fate(2)], [ParticleFate::Settled, ParticleFate::Settled, ParticleFate::Sliding]);
     for e in &log.ends {
         assert!((e.position[1] - r).abs() < 1e-12 && e.position[0] >= r * (1.0 - 1e-9), "{e:?}");
     }
@@ -36,7 +36,7 @@ fn a_sphere_driven_into_a_corner_by_the_flow_stays_there() {
     f.forces.gravity = [0.0; 3];
     let p = sphere(0, [0.01, 0.002, 0.0], [0.0, 0.3, 0.0]);
     let log = track(&domain, &f, &[bounce(0.6), bounce(0.6)], settings(), &[p]);
-    assert_eq!(log.ends[0].fate, Fate::Settled, "{:?}", log.ends[0]);
+    assert_eq!(log.ends[0].fate, ParticleFate::Settled, "{:?}", log.ends[0]);
     let x = log.ends[0].position;
     let gap = |wall: usize| domain.walls()[wall].shape.distance(x) - 45e-6;
     assert!(gap(0) > -1e-12 && gap(1) > -1e-12, "{} {}", gap(0), gap(1));
@@ -50,7 +50,7 @@ fn no_force_no_end_but_the_time() {
     // along the wall, touching it: nothing presses, so it glides on
     let p = sphere(0, [0.0, 45e-6, 0.0], [1.0, 0.0, 0.0]);
     let log = track(&domain, &f, &[bounce(0.5)], settings(), &[p]);
-    assert_eq!(log.ends[0].fate, Fate::Airborne);
+    assert_eq!(log.ends[0].fate, ParticleFate::Airborne);
     assert_eq!(log.ends[0].position, [10.0, 45e-6, 0.0]);
 }
 
@@ -62,7 +62,7 @@ fn contact_at_the_centre_comes_one_radius_later() {
     let p = sphere(0, [0.0, 0.01, 0.0], [0.0; 3]);
     let log = track(&domain, &dynamics(Drag::None), &[Behavior::Escape], settings(), &[p]);
     assert!((log.impacts[0].time - (2.0 * 0.01 / G).sqrt()).abs() < 1e-12);
-    assert_eq!(log.ends[0].fate, Fate::Escaped);
+    assert_eq!(log.ends[0].fate, ParticleFate::Escaped);
     assert_eq!(log.impacts[0].normal_speed_out, log.impacts[0].normal_speed_in);
 }
 
