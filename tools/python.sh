@@ -19,7 +19,7 @@ fi
 [[ -x $venv/bin/python ]] || python3 -m venv "$venv"
 py=$venv/bin/python
 "$py" -m pip install -q maturin pytest hypothesis mypy typing_extensions numpy pyarrow pandas polars xarray pint matplotlib nbclient \
-    ipykernel fluids
+    ipykernel fluids particula
 
 say "formatting and lints of crates/carom-py"
 (cd "$crate" && cargo metadata --format-version 1 --locked >/dev/null 2>&1) ||

