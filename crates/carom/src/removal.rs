@@ -61,6 +61,19 @@ pub struct Fluid {
     pub viscosity: f64,
 }
 
+impl Fluid {
+    /// The lift (N) on a sphere of a diameter (m) that touches the wall at rest, at a friction velocity (m/s).
+    pub fn lift_at_wall(&self, diameter: f64, friction_velocity: f64) -> f64 {
+        let nu = self.viscosity / self.density;
+        self.density * nu * nu * lift(friction_velocity * diameter / nu)
+    }
+}
+
+/// F_L/(ρν²) at d⁺: the smaller of the two lifts.
+fn lift(wall_units: f64) -> f64 {
+    (wall_units * wall_units * wall_units) * (LIFT_TOUCHING * wall_units).min(LIFT_SAFFMAN)
+}
+
 /// A sphere held on a wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Attached {
@@ -201,10 +214,7 @@ const LIFT_SAFFMAN: f64 = 1.615 / 2.0;
 
 /// d⁺ where drag + f · lift = f · pull-off, all in ρν²: the left side rises, so by bisection.
 fn sliding(friction: f64, force: f64) -> f64 {
-    let excess = |x: f64| {
-        let lift = (x * x * x) * (LIFT_TOUCHING * x).min(LIFT_SAFFMAN);
-        DRAG * (x * x) + friction * (lift - force)
-    };
+    let excess = |x: f64| DRAG * (x * x) + friction * (lift(x) - force);
     let (mut low, mut high) = (0.0, (friction * force / DRAG).sqrt());
     for _ in 0..100 {
         let middle = 0.5 * (low + high);

@@ -18,6 +18,7 @@ pub(super) struct RemovalText {
     wanted: bool,
     mode: Option<At<String>>,
     friction_velocity: Option<At<Speed>>,
+    follow: Option<At<bool>>,
 }
 
 #[derive(serde::Deserialize)]
@@ -25,6 +26,7 @@ pub(super) struct RemovalText {
 struct TableText {
     mode: Option<At<String>>,
     friction_velocity: Option<At<Speed>>,
+    follow: Option<At<bool>>,
 }
 
 impl<'de> Deserialize<'de> for RemovalText {
@@ -34,18 +36,24 @@ impl<'de> Deserialize<'de> for RemovalText {
             type Value = RemovalText;
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
                 f.write_str(
-                    "true, false, \"rolling\", \"sliding\", \"lifting\" or { mode = \"rolling\", friction_velocity = \"0.5 m/s\" }",
+                    "true, false, \"rolling\", \"sliding\", \"lifting\" or { mode = \"rolling\", friction_velocity = \"0.5 m/s\", follow = true }",
                 )
             }
             fn visit_bool<E: Error>(self, wanted: bool) -> Result<RemovalText, E> {
-                Ok(RemovalText { wanted, mode: None, friction_velocity: None })
+                Ok(RemovalText { wanted, mode: None, friction_velocity: None, follow: None })
             }
             fn visit_str<E: Error>(self, mode: &str) -> Result<RemovalText, E> {
-                Ok(RemovalText { wanted: true, mode: Some(mode.to_owned().into()), friction_velocity: None })
+                Ok(RemovalText {
+                    wanted: true,
+                    mode: Some(mode.to_owned().into()),
+                    friction_velocity: None,
+                    follow: None,
+                })
             }
             fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<RemovalText, A::Error> {
-                let TableText { mode, friction_velocity } = Deserialize::deserialize(MapAccessDeserializer::new(map))?;
-                Ok(RemovalText { wanted: true, mode, friction_velocity })
+                let TableText { mode, friction_velocity, follow } =
+                    Deserialize::deserialize(MapAccessDeserializer::new(map))?;
+                Ok(RemovalText { wanted: true, mode, friction_velocity, follow })
             }
         }
         deserializer.deserialize_any(Form)
@@ -75,6 +83,11 @@ pub(super) fn with_removal(
             "a laminar or turbulent channel or pipe does; else give removal = { friction_velocity = \"0.5 m/s\" }",
         ));
     }
+    let follow = at.value.follow.as_ref().filter(|f| f.value);
+    if let Some(follow) = follow.filter(|_| mode.is_some_and(|m| m != Mode::Rolling)) {
+        return Err(wrong(follow, "follow beside a mode that is not rolling")
+            .help("spheres are followed as they roll: give mode = \"rolling\" or none"));
+    }
     for law in &laws {
         let fluid = removal::Fluid { density: fluid.density, viscosity: fluid.viscosity };
         let held = law.removal(diameter, &fluid).ok().flatten();
@@ -87,5 +100,10 @@ pub(super) fn with_removal(
                 .help("use a tangential law with friction, or removal = \"rolling\""));
         }
     }
-    Ok(Behavior::Removal(laws, Reentrainment { mode, friction_velocity }))
+    let slippery = laws.iter().any(|law| law.tangential().friction().is_none_or(|f| f <= 0.0));
+    if let Some(follow) = follow.filter(|_| slippery) {
+        return Err(wrong(follow, format!("law '{}' has no friction to roll on", text.law.value))
+            .help("use a tangential law with friction, or leave follow out"));
+    }
+    Ok(Behavior::Removal(laws, Reentrainment { mode, friction_velocity, follow: follow.is_some() }))
 }

@@ -199,12 +199,16 @@ fn removal_is_a_wall_option() {
         _ => None,
     };
     use carom::removal::Mode;
-    let removal = |mode, friction_velocity| Some(crate::tracker::Reentrainment { mode, friction_velocity });
+    let removal =
+        |mode, friction_velocity| Some(crate::tracker::Reentrainment { mode, friction_velocity, follow: false });
     assert_eq!(of("false"), None);
     assert_eq!(of("true"), removal(None, None));
     assert_eq!(of("\"lifting\""), removal(Some(Mode::Lifting), None));
     assert_eq!(of("{ friction_velocity = \"0.5 m/s\" }"), removal(None, Some(0.5)));
     assert_eq!(of("{ mode = \"sliding\", friction_velocity = 2 }"), removal(Some(Mode::Sliding), Some(2.0)));
+    assert!(of("{ follow = true }").is_some_and(|r| r.follow) && of("{ follow = false }") == removal(None, None));
+    let lifted = "law = \"plate\"\nremoval = { mode = \"lifting\", follow = true }";
+    refused("law = \"plate\"", lifted, &["follow beside a mode that is not rolling"]);
     refused("law = \"plate\"", "law = \"plate\"\nremoval = \"roling\"", &["did you mean rolling?"]);
     refused("law = \"plate\"", "law = \"plate\"\nremoval = 3", &["true, false"]);
     refused("law = \"plate\"", "law = \"plate\"\nremoval = { speed = 3 }", &["unknown key 'speed'"]);

@@ -12,6 +12,7 @@
 //! With p the force per mass that presses, v_s the slip of the contact point and f the friction coefficient: sliding, v' = a − f p v̂_s
 //! and ω' = (5/2)(f p/R)(n × v̂_s); rolling, the friction −(2/7) v_s' that keeps the slip zero, as long as f p is enough for it.
 
+mod adhered;
 mod friction;
 mod stop;
 mod surface;
@@ -26,6 +27,7 @@ use crate::geometry::{Path, Shape, evaluate};
 use crate::integrate::{Control, Derivative, Motion as Motions, Rates, Step, exponential, growth, step};
 use crate::record::Event;
 use crate::vector::{Vec3, add, dot, norm, scale, sub};
+pub(super) use adhered::Adhered;
 use friction::{Kind, OnSurface};
 use stop::Stop;
 use surface::{Held, Rub, Surface};
@@ -99,6 +101,10 @@ pub(super) struct Contact<'a, D: Domain> {
     until: f64,
     /// Whether chance presses it too, for that long.
     chance_presses: bool,
+    /// What holds it by adhesion, if it rolls against that.
+    adhered: Option<Adhered>,
+    /// Which way adhesion resists, against it.
+    heading: Vec3,
 }
 
 impl<'a, D: Domain> Contact<'a, D> {
@@ -141,6 +147,8 @@ impl<'a, D: Domain> Contact<'a, D> {
             lift,
             until,
             chance_presses,
+            adhered: None,
+            heading: [0.0; 3],
         }
     }
 
@@ -161,13 +169,17 @@ impl<'a, D: Domain> Contact<'a, D> {
     }
 
     fn rates(&self, time: f64, m: &Motion) -> Rates<1> {
-        self.walk.rates_at((self.here, time), &self.body, m.x, m.v, m.spin)
+        match self.adhered() {
+            Some(held) => self.rates_as_adhered(held, time, m),
+            None => self.walk.rates_at((self.here, time), &self.body, m.x, m.v, m.spin),
+        }
     }
 
     /// Acceleration and angular acceleration of some rates.
     fn shared(&self, r: &Rates<1>) -> (Vec3, Vec3) {
         let column = |v: &[[f64; 1]; 3]| [v[0][0], v[1][0], v[2][0]];
-        (column(&r.a), if self.walk.dynamics.spins() { column(&r.alpha) } else { [0.0; 3] })
+        let spins = self.walk.dynamics.spins() || self.adhered().is_some();
+        (column(&r.a), if spins { column(&r.alpha) } else { [0.0; 3] })
     }
 
     /// The walls that closed gaps might move the sphere into.
@@ -213,6 +225,7 @@ impl<'a, D: Domain> Contact<'a, D> {
         self.motion.x = add(self.motion.x, surface.closing(&near, MOST_CLOSED * self.height));
         self.motion.v = add(u, surface.along(sub(self.motion.v, u)));
         let ended = surface.list().iter().any(|c| c.rub == Rub::Ended);
+        self.heading = self.heading(&surface);
         if ended || (!self.chance_presses && self.is_at_rest(&surface)) { Err(Ending::Rests) } else { Ok(surface) }
     }
 
@@ -248,6 +261,9 @@ impl<'a, D: Domain> Contact<'a, D> {
     /// Whether the motion along the surface has ended: the rest of its way, or the height it swings to, counts as none, and nothing
     /// drives it where it is.
     fn is_at_rest(&self, surface: &Surface) -> bool {
+        if self.adhered().is_some() {
+            return self.heading == [0.0; 3] || self.creeps(surface);
+        }
         let m = &self.motion;
         let u = surface.wall_velocity();
         let v = sub(m.v, u);
@@ -327,6 +343,7 @@ impl<'a, D: Domain> Contact<'a, D> {
                 }
                 Stop::Wall(hit) => return Ending::Meets(self.touch(hit)),
                 Stop::Grip => self.rolls = !self.rolls,
+                Stop::Still => (self.motion.v, self.motion.spin) = (surface.wall_velocity(), [0.0; 3]),
                 Stop::Press if surface.list().len() == 1 => return Ending::Leaves(self.lost(&surface)),
                 Stop::Press => {}
                 Stop::Support => return Ending::Leaves(self.off()),

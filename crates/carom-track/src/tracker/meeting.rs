@@ -82,7 +82,10 @@ impl<D: Domain> Walk<'_, D> {
         if matches!(after.event, Event::Capture | Event::Settle)
             && let Some(mode) = self.removes(crew, l, hit)
         {
-            after.event = Event::Remove(mode);
+            (after.velocity, after.spin) = (hit.wall_velocity, [0.0; 3]);
+            contact = self.rolls_off(crew, l, hit, &after, mode);
+            // where it is followed the impact is no end, nor is a removal counted
+            after.event = if contact.is_some() { Event::Rebound } else { Event::Remove(mode) };
         }
         sink.impact(&record(&crew.lanes[l], crew.time[l], hit, v, spin, &after));
         if let Some(fate) = after.event.ends() {

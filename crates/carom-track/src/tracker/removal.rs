@@ -1,14 +1,15 @@
 //! Whether the flow takes a sphere off again that would stay at a wall.
 //!
 //! The flow is steady, so a sphere does not stay where the friction velocity exceeds its critical one ([`carom::removal`]): it is taken
-//! off at once, and its track ends there. It is not put back into flight. At rest at the wall it would be caught again in the next
-//! instant, and how far it rolls, and whether it is lifted out of the boundary layer, no criterion of incipient motion says.
+//! off at once. Its track ends there, or, with `follow`, goes on as contact motion where rolling sets in first and there is friction to
+//! roll on (`contact/adhered.rs`). It is not put back into flight: at rest at the wall it would be caught again in the next instant.
 
+use super::contact::{Adhered, Contact};
 use super::crew::Crew;
-use super::meeting::law_of;
+use super::meeting::{After, law_of};
 use super::{Behavior, Walk};
 use crate::domain::{Domain, Hit};
-use carom::removal::{Fluid, Mode};
+use carom::removal::{Fluid, Mode, Removal};
 
 /// What takes spheres off a wall.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -17,6 +18,8 @@ pub struct Reentrainment {
     pub mode: Option<Mode>,
     /// Friction velocity at the wall, m/s; where absent, the flow's own at the sphere.
     pub friction_velocity: Option<f64>,
+    /// Whether a sphere that rolls off is followed along the wall.
+    pub follow: bool,
 }
 
 impl<D: Domain> Walk<'_, D> {
@@ -24,15 +27,42 @@ impl<D: Domain> Walk<'_, D> {
     pub(super) fn removes<const W: usize>(&self, crew: &Crew<W, D::Here>, l: usize, hit: &Hit) -> Option<Mode> {
         let behavior = self.behaviors.get(hit.wall)?;
         let Behavior::Removal(_, removal) = behavior else { return None };
-        let particle = &crew.lanes[l].particle;
-        let here = self.properties(crew.here[l], crew.time[l], hit.meeting.position);
-        let fluid = Fluid { density: here.density, viscosity: here.viscosity };
-        let held = law_of(behavior, particle.injection)?.removal(particle.diameter, &fluid).ok()??;
+        let held = self.held(crew, l, hit)?;
         let flow = || self.domain.fluid(crew.here[l], crew.time[l], hit.meeting.position).friction_velocity;
         let speed = removal.friction_velocity.unwrap_or_else(flow);
         match removal.mode {
             Some(mode) => held.mode([mode], speed),
             None => held.mode(Mode::ALL, speed),
         }
+    }
+    /// The contact motion in which it leaves, if it is to be followed and rolls.
+    pub(super) fn rolls_off<'b, const W: usize>(
+        &'b self,
+        crew: &Crew<W, D::Here>,
+        l: usize,
+        hit: &Hit,
+        after: &After,
+        mode: Mode,
+    ) -> Option<Contact<'b, D>> {
+        let Behavior::Removal(_, removal) = self.behaviors.get(hit.wall)? else { return None };
+        let particle = &crew.lanes[l].particle;
+        let friction = law_of(self.behaviors.get(hit.wall)?, particle.injection)?.tangential().friction();
+        if !removal.follow || mode != Mode::Rolling || friction.is_none_or(|f| f <= 0.0) {
+            return None;
+        }
+        let held = self.held(crew, l, hit)?;
+        let fluid = self.properties(crew.here[l], crew.time[l], hit.meeting.position);
+        let body = (crew.bodies.sphere[l].mass(), crew.bodies.radius[l]);
+        let adhered = Adhered::new(hit.wall, removal.friction_velocity, &held, body, fluid.mean_free_path);
+        let mut contact = self.contact(crew, l, hit, after).rolling_off(adhered);
+        contact.begin().is_none().then_some(contact)
+    }
+
+    /// What holds a sphere where it hit.
+    fn held<const W: usize>(&self, crew: &Crew<W, D::Here>, l: usize, hit: &Hit) -> Option<Removal> {
+        let particle = &crew.lanes[l].particle;
+        let here = self.properties(crew.here[l], crew.time[l], hit.meeting.position);
+        let fluid = Fluid { density: here.density, viscosity: here.viscosity };
+        law_of(self.behaviors.get(hit.wall)?, particle.injection)?.removal(particle.diameter, &fluid).ok()?
     }
 }

@@ -161,7 +161,12 @@ impl<D: Domain> Walk<'_, D> {
     ) -> (Motion, After, bool) {
         let before = contact.motion;
         crew.lanes[l].impacts += 1;
-        let after = self.outcome(crew, l, hit, before.v, before.spin);
+        let mut after = self.outcome(crew, l, hit, before.v, before.spin);
+        if matches!(after.event, Event::Capture | Event::Settle)
+            && let Some(mode) = self.removes(crew, l, hit)
+        {
+            after.event = Event::Remove(mode);
+        }
         let stays = contact.goes_on(Motion { v: after.velocity, spin: after.spin, ..before });
         (before, after, stays)
     }

@@ -61,10 +61,11 @@ impl<D: Domain> Contact<'_, D> {
         (add(pressed.acceleration, friction), add(turn, surface.turn(friction, self.radius())))
     }
 
-    /// Energy per mass that friction takes up to θ of a step: Boole's rule over the power f p |v_s|.
+    /// Energy per mass that friction, and adhesion as it is peeled, take up to θ of a step: Boole's rule over the power f p |v_s|.
     pub(super) fn work(&self, surface: &Surface, kind: Kind, trial: &Step<1>, h: f64, theta: f64) -> f64 {
+        let peeled = self.peeled(self.motion.x, self.at(trial, h, theta).x);
         if !matches!(kind, Kind::Slides(_)) {
-            return 0.0;
+            return peeled;
         }
         const WEIGHTS: [f64; 5] = [7.0, 32.0, 12.0, 32.0, 7.0];
         let power = |i: usize| {
@@ -75,7 +76,7 @@ impl<D: Domain> Contact<'_, D> {
             here.press(&m, a).friction * norm(here.slip(&m, self.radius()))
         };
         let sum: f64 = WEIGHTS.iter().enumerate().map(|(i, w)| w * power(i)).sum();
-        sum * theta * h / 90.0
+        peeled + sum * theta * h / 90.0
     }
 }
 

@@ -5,7 +5,7 @@ use super::{Contact, Kind, Motion};
 use crate::domain::{Carry, Domain, Hit, Next};
 use crate::geometry::{Path, Shape};
 use crate::integrate::Step;
-use crate::vector::{add, dot, norm};
+use crate::vector::{add, dot, norm, sub};
 
 /// Where a step must end.
 #[derive(Clone, Copy, Debug)]
@@ -18,6 +18,8 @@ pub(super) enum Stop<H> {
     Wall(Hit),
     /// The slip is gone, or friction does not keep it zero.
     Grip,
+    /// Adhesion has stopped it.
+    Still,
     /// Nothing presses any more.
     Press,
     /// The wall is not under it any more.
@@ -77,6 +79,10 @@ impl<D: Domain> Contact<'_, D> {
         let pressed = here.press(m, a);
         if !pressed.holds {
             return Some(Stop::Press);
+        }
+        let halted = || dot(sub(m.v, here.wall_velocity()), self.heading) <= 0.0;
+        if self.heading != [0.0; 3] && halted() {
+            return Some(Stop::Still);
         }
         match kind {
             Kind::Free => {}
