@@ -1,6 +1,14 @@
 // Part of carom's OpenFOAM plug-in. GPL-3.0-or-later, see ../../COPYING.
 
-#include "basicKinematicCollidingCloud.H"
+#ifdef OPENFOAM
+    #include "basicKinematicCollidingCloud.H"
+#else
+    #include "collidingCloud.H"
+#endif
 #include "CaromInteraction.H"
 
-makePatchInteractionModelType(CaromInteraction, basicKinematicCollidingCloud);
+#ifdef OPENFOAM
+    makePatchInteractionModelType(CaromInteraction, basicKinematicCollidingCloud);
+#else
+    makePatchInteractionModelType(CaromInteraction, collidingCloud);
+#endif

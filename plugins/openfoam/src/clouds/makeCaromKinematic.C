@@ -1,6 +1,14 @@
 // Part of carom's OpenFOAM plug-in. GPL-3.0-or-later, see ../../COPYING.
 
-#include "basicKinematicCloud.H"
+#ifdef OPENFOAM
+    #include "basicKinematicCloud.H"
+#else
+    #include "momentumCloud.H"
+#endif
 #include "CaromInteraction.H"
 
-makePatchInteractionModelType(CaromInteraction, basicKinematicCloud);
+#ifdef OPENFOAM
+    makePatchInteractionModelType(CaromInteraction, basicKinematicCloud);
+#else
+    makePatchInteractionModelType(CaromInteraction, momentumCloud);
+#endif

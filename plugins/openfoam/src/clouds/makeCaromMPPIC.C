@@ -1,6 +1,14 @@
 // Part of carom's OpenFOAM plug-in. GPL-3.0-or-later, see ../../COPYING.
 
-#include "basicKinematicMPPICCloud.H"
+#ifdef OPENFOAM
+    #include "basicKinematicMPPICCloud.H"
+#else
+    #include "mppicCloud.H"
+#endif
 #include "CaromInteraction.H"
 
-makePatchInteractionModelType(CaromInteraction, basicKinematicMPPICCloud);
+#ifdef OPENFOAM
+    makePatchInteractionModelType(CaromInteraction, basicKinematicMPPICCloud);
+#else
+    makePatchInteractionModelType(CaromInteraction, mppicCloud);
+#endif

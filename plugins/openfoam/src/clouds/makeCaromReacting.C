@@ -1,6 +1,14 @@
 // Part of carom's OpenFOAM plug-in. GPL-3.0-or-later, see ../../COPYING.
 
-#include "basicReactingCloud.H"
+#ifdef OPENFOAM
+    #include "basicReactingCloud.H"
+#else
+    #include "reactingCloud.H"
+#endif
 #include "CaromInteraction.H"
 
-makePatchInteractionModelType(CaromInteraction, basicReactingCloud);
+#ifdef OPENFOAM
+    makePatchInteractionModelType(CaromInteraction, basicReactingCloud);
+#else
+    makePatchInteractionModelType(CaromInteraction, reactingCloud);
+#endif

@@ -1,6 +1,14 @@
 // Part of carom's OpenFOAM plug-in. GPL-3.0-or-later, see ../../COPYING.
 
-#include "basicReactingMultiphaseCloud.H"
+#ifdef OPENFOAM
+    #include "basicReactingMultiphaseCloud.H"
+#else
+    #include "reactingMultiphaseCloud.H"
+#endif
 #include "CaromInteraction.H"
 
-makePatchInteractionModelType(CaromInteraction, basicReactingMultiphaseCloud);
+#ifdef OPENFOAM
+    makePatchInteractionModelType(CaromInteraction, basicReactingMultiphaseCloud);
+#else
+    makePatchInteractionModelType(CaromInteraction, reactingMultiphaseCloud);
+#endif

@@ -1,6 +1,14 @@
 // Part of carom's OpenFOAM plug-in. GPL-3.0-or-later, see ../../COPYING.
 
-#include "basicThermoCloud.H"
+#ifdef OPENFOAM
+    #include "basicThermoCloud.H"
+#else
+    #include "thermoCloud.H"
+#endif
 #include "CaromInteraction.H"
 
-makePatchInteractionModelType(CaromInteraction, basicThermoCloud);
+#ifdef OPENFOAM
+    makePatchInteractionModelType(CaromInteraction, basicThermoCloud);
+#else
+    makePatchInteractionModelType(CaromInteraction, thermoCloud);
+#endif

@@ -1,6 +1,7 @@
 // Part of carom's OpenFOAM plug-in. GPL-3.0-or-later, see ../../COPYING.
 
 #include "CaromInteraction.H"
+#include "caromRelease.H"
 #include "caromSpin.H"
 
 template<class CloudType>
@@ -12,12 +13,12 @@ Foam::CaromInteraction<CloudType>::CaromInteraction(const dictionary& dict, Clou
     fields_(),
     log_()
 {
-    if (this->coeffDict().getOrDefault("writeFields", false))
+    if (caromRelease::getOr(this->coeffDict(), "writeFields", false))
     {
         fields_ = std::make_shared<caromFields>(owner.mesh(), owner.name());
     }
 
-    if (this->coeffDict().getOrDefault("logImpacts", false))
+    if (caromRelease::getOr(this->coeffDict(), "logImpacts", false))
     {
         log_ = std::make_shared<caromImpactLog>(owner.mesh().time(), owner.name());
     }
@@ -38,7 +39,7 @@ Foam::CaromInteraction<CloudType>::CaromInteraction(const CaromInteraction<Cloud
 template<class CloudType>
 void Foam::CaromInteraction<CloudType>::stop(parcelType& p) const
 {
-    p.active(false);
+    caromRelease::stop(p);
     p.U() = Zero;
     caromSpin::set(p, Zero);
 }
@@ -176,9 +177,9 @@ void Foam::CaromInteraction<CloudType>::impact
 
     if (log_)
     {
-        const scalar t =
-            this->owner().time().value() - (1 - p.stepFraction())*this->owner().time().deltaTValue();
-        log_->write(t, pp.name(), p.position(), in, out, p.U());
+        const Time& time = this->owner().mesh().time();
+        const scalar t = time.value() - (1 - p.stepFraction())*time.deltaTValue();
+        log_->write(t, pp.name(), caromRelease::position(p, this->owner().mesh()), in, out, p.U());
     }
 }
 
@@ -227,6 +228,35 @@ bool Foam::CaromInteraction<CloudType>::correct(parcelType& p, const polyPatch& 
 
 
 template<class CloudType>
+void Foam::CaromInteraction<CloudType>::report(Ostream& os)
+{
+    caromCounts total(counts_.total());
+    total.addFrom
+    (
+        this->properties().subOrEmptyDict(this->baseName()).subOrEmptyDict(this->modelType())
+    );
+    total.report(os);
+
+    #ifdef OPENFOAM
+    total.row(this->file());
+    this->file() << endl;
+    #endif
+
+    if (this->writeTime())
+    {
+        if (!this->properties_.found(this->baseName()))
+        {
+            this->properties_.add(this->baseName(), dictionary());
+        }
+        this->properties_.subDict(this->baseName()).set(this->modelType(), total.entries());
+        counts_.clear();
+    }
+}
+
+
+#ifdef OPENFOAM
+
+template<class CloudType>
 void Foam::CaromInteraction<CloudType>::writeFileHeader(Ostream& os)
 {
     PatchInteractionModel<CloudType>::writeFileHeader(os);
@@ -236,26 +266,35 @@ void Foam::CaromInteraction<CloudType>::writeFileHeader(Ostream& os)
     }
 }
 
+#endif
+
+
+template<class CloudType>
+template<class Base>
+auto Foam::CaromInteraction<CloudType>::baseInfo(Ostream& os, int) -> decltype(std::declval<Base&>().info(os), void())
+{
+    Base::info(os);
+}
+
+
+template<class CloudType>
+template<class Base>
+auto Foam::CaromInteraction<CloudType>::baseInfo(Ostream&, long) -> decltype(std::declval<Base&>().info(), void())
+{
+    Base::info();
+}
+
 
 template<class CloudType>
 void Foam::CaromInteraction<CloudType>::info(Ostream& os)
 {
-    PatchInteractionModel<CloudType>::info(os);
+    baseInfo<PatchInteractionModel<CloudType>>(os, 0);
+    report(os);
+}
 
-    caromCounts total(counts_.total());
-    total.addFrom
-    (
-        this->properties().subOrEmptyDict(this->baseName()).subOrEmptyDict(this->modelType())
-    );
-    total.report(os);
 
-    total.row(this->file());
-    this->file() << endl;
-
-    if (this->writeTime())
-    {
-        dictionary& base = this->properties_.subDict(this->baseName());
-        base.set(this->modelType(), total.entries());
-        counts_.clear();
-    }
+template<class CloudType>
+void Foam::CaromInteraction<CloudType>::info()
+{
+    info(Info);
 }

@@ -1,6 +1,7 @@
 // Part of carom's OpenFOAM plug-in. GPL-3.0-or-later, see ../../COPYING.
 
 #include "caromLaw.H"
+#include "caromRelease.H"
 #include "error.H"
 #include "IOstreams.H"
 
@@ -58,7 +59,7 @@ Foam::caromLaw::caromLaw(const entry& patch, const fileName& materials, const fi
             << " 'file' (a file with wall laws) and 'name'" << nl << exit(FatalIOError);
     }
 
-    const string name(dict.getOrDefault<word>("name", word::null));
+    const string name(caromRelease::getOr(dict, "name", word::null));
     const string materialsPath(materials.empty() ? string() : path(materials, caseDir));
 
     const quietFloat quiet;
@@ -66,12 +67,12 @@ Foam::caromLaw::caromLaw(const entry& patch, const fileName& materials, const fi
     carom_status status;
     if (dict.found("file"))
     {
-        const string file(path(dict.get<fileName>("file"), caseDir));
+        const string file(path(caromRelease::get<fileName>(dict, "file"), caseDir));
         status = carom_law_from_file(file.c_str(), orNull(name), orNull(materialsPath), &law);
     }
     else
     {
-        const string text(dict.get<string>("law"));
+        const string text(caromRelease::get<string>(dict, "law"));
         const string materialsText(materials.empty() ? string() : contents(dict, materialsPath));
         status = carom_law_from_text(text.c_str(), orNull(name), orNull(materialsText), &law);
     }

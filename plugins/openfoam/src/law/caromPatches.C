@@ -1,30 +1,72 @@
 // Part of carom's OpenFOAM plug-in. GPL-3.0-or-later, see ../../COPYING.
 
 #include "caromPatches.H"
+#include "caromRelease.H"
 #include "Time.H"
-#include "wordRe.H"
+
+#include <algorithm>
+#include <initializer_list>
 
 namespace
 {
 
-const Foam::Enum<Foam::caromPatches::kind> kindNames
-({
-    {Foam::caromPatches::kind::none, "none"},
-    {Foam::caromPatches::kind::escape, "escape"},
-    {Foam::caromPatches::kind::stick, "stick"},
-    {Foam::caromPatches::kind::rebound, "rebound"},
-    {Foam::caromPatches::kind::law, "law"},
-});
-
-//- Entries that a kind takes, beside 'type'
-Foam::wordHashSet keywords(const Foam::caromPatches::kind kind)
+//- Names of the kinds, and the entries that each takes
+struct kindName
 {
-    switch (kind)
+    Foam::caromPatches::kind kind;
+    const char* name;
+    std::initializer_list<const char*> keywords;
+};
+
+const kindName kinds[] =
+{
+    {Foam::caromPatches::kind::escape, "escape", {"type"}},
+    {Foam::caromPatches::kind::law, "law", {"file", "law", "name", "type"}},
+    {Foam::caromPatches::kind::none, "none", {"type"}},
+    {Foam::caromPatches::kind::rebound, "rebound", {"e", "mu", "type"}},
+    {Foam::caromPatches::kind::stick, "stick", {"type"}}
+};
+
+const char* const kindNames = "escape, law, none, rebound, stick";
+
+//- Names as a list in a message
+template<class Names>
+Foam::string listed(const Names& names)
+{
+    Foam::string text;
+    for (const auto& name : names)
     {
-        case Foam::caromPatches::kind::law: return {"type", "law", "file", "name"};
-        case Foam::caromPatches::kind::rebound: return {"type", "e", "mu"};
-        default: return {"type"};
+        text += (text.empty() ? "" : ", ") + Foam::string(name);
     }
+    return text;
+}
+
+//- A number between 0 and 1
+Foam::scalar share(const Foam::dictionary& dict, const char* key, const Foam::scalar otherwise)
+{
+    const Foam::scalar x = Foam::caromRelease::getOr(dict, key, otherwise);
+    if (!(x >= 0 && x <= 1))
+    {
+        FatalIOErrorInFunction(dict)
+            << "Entry '" << key << "' is " << x << ": it lies between 0 and 1" << Foam::nl << exit(Foam::FatalIOError);
+    }
+    return x;
+}
+
+const kindName& kindOf(const Foam::entry& patch)
+{
+    const Foam::word type(Foam::caromRelease::get<Foam::word>(patch.dict(), "type"));
+    for (const kindName& known : kinds)
+    {
+        if (type == known.name)
+        {
+            return known;
+        }
+    }
+    FatalIOErrorInFunction(patch.dict())
+        << "Unknown type '" << type << "' in the entry of patch '" << patch.keyword() << "'; known are " << kindNames
+        << Foam::nl << exit(Foam::FatalIOError);
+    return kinds[0];
 }
 
 } // End anonymous namespace
@@ -39,28 +81,28 @@ Foam::caromPatches::action Foam::caromPatches::read
 {
     const dictionary& dict = patch.dict();
     action result;
-    result.what = kindNames.get("type", dict);
+    const kindName& kind = kindOf(patch);
+    result.what = kind.kind;
 
-    const wordHashSet allowed(keywords(result.what));
     for (const word& key : dict.toc())
     {
-        if (!allowed.found(key))
+        if (std::none_of(kind.keywords.begin(), kind.keywords.end(), [&key](const char* k) { return key == k; }))
         {
             FatalIOErrorInFunction(dict)
                 << "Unknown keyword '" << key << "' in the entry of patch '" << patch.keyword() << "': type "
-                << kindNames[result.what] << " takes " << flatOutput(allowed.sortedToc()) << nl
+                << kind.name << " takes " << listed(kind.keywords) << nl
                 << exit(FatalIOError);
         }
     }
 
-    if (result.what == kind::law)
+    if (result.what == caromPatches::kind::law)
     {
         result.law = caromLaw(patch, materials, caseDir);
     }
-    else if (result.what == kind::rebound)
+    else if (result.what == caromPatches::kind::rebound)
     {
-        result.e = dict.getCheckOrDefault<scalar>("e", 1, [](const scalar x) { return x >= 0 && x <= 1; });
-        result.mu = dict.getCheckOrDefault<scalar>("mu", 0, [](const scalar x) { return x >= 0 && x <= 1; });
+        result.e = share(dict, "e", 1);
+        result.mu = share(dict, "mu", 0);
     }
 
     return result;
@@ -69,20 +111,20 @@ Foam::caromPatches::action Foam::caromPatches::read
 
 const Foam::entry* Foam::caromPatches::find(const dictionary& patches, const polyPatch& pp)
 {
-    if (const entry* byName = patches.findEntry(pp.name(), keyType::LITERAL))
+    if (const entry* byName = caromRelease::findName(patches, pp.name()))
     {
         return byName;
     }
 
     for (const word& group : pp.inGroups())
     {
-        if (const entry* byGroup = patches.findEntry(group, keyType::LITERAL))
+        if (const entry* byGroup = caromRelease::findName(patches, group))
         {
             return byGroup;
         }
     }
 
-    return patches.findEntry(pp.name(), keyType::REGEX);
+    return caromRelease::findNameOrPattern(patches, pp.name());
 }
 
 
@@ -97,11 +139,11 @@ void Foam::caromPatches::checkNames(const dictionary& patches, const polyBoundar
                 << " { type law; ... }" << nl << exit(FatalIOError);
         }
 
-        if (mesh.indices(e.keyword()).empty())
+        if (!caromRelease::fitsPatch(mesh, e.keyword()))
         {
             FatalIOErrorInFunction(e.dict())
                 << "Entry '" << e.keyword() << "' of patches matches no patch or patch group of the mesh. Patches: "
-                << flatOutput(mesh.names()) << nl << exit(FatalIOError);
+                << listed(mesh.names()) << nl << exit(FatalIOError);
         }
     }
 }
@@ -110,14 +152,14 @@ void Foam::caromPatches::checkNames(const dictionary& patches, const polyBoundar
 Foam::caromPatches::caromPatches(const dictionary& coeffs, const polyMesh& mesh)
 :
     actions_(1),
-    entryOfPatch_(mesh.boundaryMesh().nNonProcessor(), Zero),
+    entryOfPatch_(caromRelease::nSharedPatches(mesh.boundaryMesh()), 0),
     names_(),
     rowOfPatch_(entryOfPatch_.size(), -1)
 {
     const polyBoundaryMesh& boundary = mesh.boundaryMesh();
     const dictionary& patches = coeffs.subDict("patches");
     const fileName caseDir(mesh.time().globalPath());
-    const fileName materials(coeffs.getOrDefault<fileName>("materials", fileName::null));
+    const fileName materials(caromRelease::getOr(coeffs, "materials", fileName()));
 
     checkNames(patches, boundary);
 
@@ -131,10 +173,9 @@ Foam::caromPatches::caromPatches(const dictionary& coeffs, const polyMesh& mesh)
 
         if (found)
         {
-            label i = read.find(found);
-            if (i < 0)
+            const label i = label(std::find(read.begin(), read.end(), found) - read.begin());
+            if (i == read.size())
             {
-                i = read.size();
                 read.append(found);
                 actions_.append(caromPatches::read(*found, materials, caseDir));
             }
@@ -155,8 +196,8 @@ Foam::caromPatches::caromPatches(const dictionary& coeffs, const polyMesh& mesh)
     if (missing.size())
     {
         FatalIOErrorInFunction(patches)
-            << "No entry for patch" << (missing.size() > 1 ? "es " : " ") << flatOutput(missing)
-            << ". Each patch needs one of type " << flatOutput(kindNames.sortedToc()) << nl << exit(FatalIOError);
+            << "No entry for patch" << (missing.size() > 1 ? "es " : " ") << listed(missing)
+            << ". Each patch needs one of type " << kindNames << nl << exit(FatalIOError);
     }
 
     names_.transfer(names);

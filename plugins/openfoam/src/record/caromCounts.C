@@ -1,8 +1,11 @@
 // Part of carom's OpenFOAM plug-in. GPL-3.0-or-later, see ../../COPYING.
 
 #include "caromCounts.H"
+#include "caromRelease.H"
 #include "Pstream.H"
 #include "PstreamCombineReduceOps.H"
+
+#include <algorithm>
 
 constexpr int Foam::caromCounts::kinds;
 
@@ -51,17 +54,17 @@ Foam::caromCounts Foam::caromCounts::total() const
 
 void Foam::caromCounts::addFrom(const dictionary& dict)
 {
-    const wordList then(dict.getOrDefault<wordList>("patches", wordList()));
+    const wordList then(caromRelease::getOr(dict, "patches", wordList()));
 
     for (int kind = 0; kind < kinds; ++kind)
     {
-        const List<int64_t> number(dict.getOrDefault<List<int64_t>>(key("n", kind), List<int64_t>()));
-        const scalarList mass(dict.getOrDefault<scalarList>(key("mass", kind), scalarList()));
+        const List<int64_t> number(caromRelease::getOr(dict, key("n", kind), List<int64_t>()));
+        const scalarList mass(caromRelease::getOr(dict, key("mass", kind), scalarList()));
 
         forAll(then, i)
         {
-            const label row = patches_.find(then[i]);
-            if (row >= 0 && i < number.size() && i < mass.size())
+            const label row = label(std::find(patches_.begin(), patches_.end(), then[i]) - patches_.begin());
+            if (row < patches_.size() && i < number.size() && i < mass.size())
             {
                 number_[kind][row] += number[i];
                 mass_[kind][row] += mass[i];
@@ -110,7 +113,9 @@ Foam::wordList Foam::caromCounts::titles() const
             titles.append(patch + '_' + key("mass", kind));
         }
     }
-    return wordList(std::move(titles));
+    wordList list;
+    list.transfer(titles);
+    return list;
 }
 
 

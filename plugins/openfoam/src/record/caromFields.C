@@ -1,7 +1,8 @@
 // Part of carom's OpenFOAM plug-in. GPL-3.0-or-later, see ../../COPYING.
 
 #include "caromFields.H"
-#include "unitConversion.H"
+#include "caromRelease.H"
+#include "mathematicalConstants.H"
 
 namespace
 {
@@ -11,7 +12,7 @@ Foam::IOobject io(const Foam::fvMesh& mesh, const Foam::word& cloud, const char*
     return Foam::IOobject
     (
         cloud + ':' + name,
-        mesh.time().timeName(),
+        Foam::caromRelease::timeName(mesh.time()),
         mesh,
         Foam::IOobject::READ_IF_PRESENT,
         Foam::IOobject::AUTO_WRITE
@@ -54,6 +55,6 @@ void Foam::caromFields::addImpact
     {
         const scalar share = particles/weight;
         speed += share*(std::hypot(normal, tangential) - speed);
-        angle += share*(radToDeg(std::atan2(normal, tangential)) - angle);
+        angle += share*(std::atan2(normal, tangential)*(180/constant::mathematical::pi) - angle);
     }
 }

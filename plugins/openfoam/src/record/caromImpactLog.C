@@ -1,7 +1,7 @@
 // Part of carom's OpenFOAM plug-in. GPL-3.0-or-later, see ../../COPYING.
 
 #include "caromImpactLog.H"
-#include "cloud.H"
+#include "caromRelease.H"
 #include "OSspecific.H"
 #include "Pstream.H"
 #include "error.H"
@@ -23,7 +23,7 @@ Foam::caromImpactLog::caromImpactLog(const Time& time, const word& cloudName)
 {
     const fileName dir
     (
-        time.globalPath()/"postProcessing"/cloud::prefix/cloudName/"impacts"/time.timeName()
+        time.globalPath()/word("postProcessing")/"lagrangian"/cloudName/"impacts"/caromRelease::timeName(time)
     );
     mkDir(dir);
 
