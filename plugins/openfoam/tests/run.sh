@@ -112,6 +112,33 @@ diff <(counts ../serial/0.2/$properties | grep -v mass) <(counts processor2/0.2/
     fail "two ranks that went on as three do not count like one"
 echo "four ranks count as one, and two that go on as three"
 
+# --- walls that scatter draw the same on any number of ranks ------------------------------------------------------
+
+# patch, diameter, draws and fate of each impact: what scattering looks at, in an order of its own
+drawn() { awk -F, 'FNR > 1 { print $2, $6, $20, $21, $22, $23, $24 }' "$@" | sort; }
+
+# the parcels are injected on one rank, so that each has its number for life, and are then divided
+new_case scatter
+sed -i -e 's/^\( *\)surface = .*/&\n\1roughness_angle = "4 deg"/' constant/kinematicCloudProperties constant/walls.toml
+set_entry system/controlDict writeInterval 5
+set_entry system/controlDict endTime 0.005
+quietly log.first "$solver"
+cp -r . ../scatter-two
+set_entry system/controlDict endTime 0.2
+quietly log "$solver"
+cd ../scatter-two
+set_entry system/controlDict endTime 0.2
+quietly log.decompose decomposePar -time 0.005 -copyUniform
+quietly log mpirun --oversubscribe -np 2 "$solver" -parallel
+drawn ../scatter/$impacts/0.005/impacts.csv >"$work/drawn.one"
+drawn $impacts/0.005/impacts_processor?.csv >"$work/drawn.two"
+awk '{ n++; for (i = 3; i <= 6; i++) { twice += seen[$i]++; sum += $i } }
+     END { d = (sum / (4 * n) - 0.5) * sqrt(48 * n); exit !(n > 500 && twice == 0 && d < 5 && d > -5) }' "$work/drawn.one" ||
+    fail "draws come twice or are not uniform"
+diff -q "$work/drawn.one" "$work/drawn.two" >/dev/null ||
+    fail "two ranks draw otherwise than one: $(comm -3 "$work/drawn.one" "$work/drawn.two" | wc -l) impacts"
+echo "$(wc -l <"$work/drawn.one") impacts on walls that scatter have the same draws and fates on one rank and on two"
+
 # --- a record that cannot be written ends the run -------------------------------------------------------------------
 
 new_case full

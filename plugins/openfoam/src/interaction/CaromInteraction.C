@@ -10,6 +10,7 @@ Foam::CaromInteraction<CloudType>::CaromInteraction(const dictionary& dict, Clou
     PatchInteractionModel<CloudType>(dict, owner, typeName),
     patches_(this->coeffDict(), owner.mesh()),
     counts_(patches_.names()),
+    draws_(owner.name()),
     fields_(),
     log_()
 {
@@ -31,6 +32,7 @@ Foam::CaromInteraction<CloudType>::CaromInteraction(const CaromInteraction<Cloud
     PatchInteractionModel<CloudType>(other),
     patches_(other.patches_),
     counts_(other.counts_),
+    draws_(other.draws_),
     fields_(other.fields_),
     log_(other.log_)
 {}
@@ -148,9 +150,9 @@ void Foam::CaromInteraction<CloudType>::impact
         in.normal[i] = -nw[i];  // ours points into the fluid
         in.wall_velocity[i] = Up[i];
     }
-    for (unsigned i = 0; i < action.law.draws(); ++i)
+    if (action.law.scatters())
     {
-        in.draws[i] = this->owner().rndGen().template sample01<scalar>();
+        draws_.draw(this->owner().mesh().time().timeIndex(), p.origProc(), p.origId(), pp.index(), in.draws);
     }
 
     const carom_impact_out out(action.law.impact(in));

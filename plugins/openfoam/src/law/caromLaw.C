@@ -41,14 +41,14 @@ const char* orNull(const Foam::string& text)
 Foam::caromLaw::caromLaw()
 :
     law_(),
-    draws_(0)
+    scatters_(false)
 {}
 
 
 Foam::caromLaw::caromLaw(const entry& patch, const fileName& materials, const fileName& caseDir)
 :
     law_(),
-    draws_(0)
+    scatters_(false)
 {
     const dictionary& dict = patch.dict();
 
@@ -85,7 +85,7 @@ Foam::caromLaw::caromLaw(const entry& patch, const fileName& materials, const fi
     }
 
     law_.reset(static_cast<const carom_law*>(law), [law](const carom_law*) { carom_law_free(law); });
-    draws_ = carom_law_scatters(law) == 1 ? sizeof(carom_impact_in().draws)/sizeof(double) : 0;
+    scatters_ = carom_law_scatters(law) == 1;
 }
 
 
