@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define VALUES 25 /* after zone and fate */
+#define VALUES 29 /* after zone and fate */
 
 static long rebounds, captures, spinning, wrong;
 
@@ -28,7 +28,7 @@ static int read_row(char *line, char **zone, char **fate, double value[VALUES])
     return strtok(NULL, ",") == NULL;
 }
 
-/* The columns: time, mass, position, diameter, density, velocity, spin, normal, wall's velocity; velocity, spin afterwards. */
+/* The columns: time, mass, position, diameter, density, velocity, spin, normal, wall's velocity; velocity, spin afterwards; draws. */
 static void compare(const carom_law *law, const char *zone, const char *fate, const double *v, const char *place, long row)
 {
     carom_impact_in in = {0};
@@ -43,6 +43,7 @@ static void compare(const carom_law *law, const char *zone, const char *fate, co
     memcpy(in.spin, v + 10, sizeof in.spin);
     memcpy(in.normal, v + 13, sizeof in.normal);
     memcpy(in.wall_velocity, v + 16, sizeof in.wall_velocity);
+    memcpy(in.draws, v + 25, sizeof in.draws);
     fine = carom_impact(law, &in, &out) == CAROM_STATUS_OK && strcmp(fate, carom_fate_name(out.fate)) == 0
         && memcmp(out.velocity, v + 19, sizeof out.velocity) == 0 && memcmp(out.spin, v + 22, sizeof out.spin) == 0;
     /* and the geometry is the channel's: at the floor or the ceiling, the normal into the air */

@@ -60,6 +60,19 @@ for n in 1 2; do
     checked "on-$n"
 done
 
+echo "-- a wall that scatters: each impact with its own draws"
+cp "$case/DATA/walls.toml" "$work/smooth.toml"
+printf 'roughness_angle = "4 deg"\n' >>"$case/DATA/walls.toml"
+run scatter -n 2 || { tail -5 "$work/scatter.log"; exit 1; }
+(cd "$case/RESU/scatter" && "$work/check" walls.toml:glass impacts*.csv)
+# four uniform numbers an impact: none of them twice, their mean within five standard errors, 1/sqrt(12 n), of a half
+cat "$case"/RESU/scatter/impacts*.csv | awk -F, '
+    $1 == "zone" { next }
+    { n++; for (i = NF - 3; i <= NF; i++) { twice += seen[$i]++; sum += $i; wrong += $i < 0 || $i >= 1 } }
+    END { d = (sum / (4 * n) - 0.5) * sqrt(48 * n); printf "%d impacts, draws in all %d, twice %d, mean off by %.1f standard errors\n", n, 4 * n, twice, d
+          exit !(n > 1000 && twice == 0 && wrong == 0 && d < 5 && d > -5) }'
+cp "$work/smooth.toml" "$case/DATA/walls.toml"
+
 echo "-- without loss, particles end where code_saturne's own rebound leads them"
 table=$case/DATA/carom-walls.txt
 printf '[law.mirror]\nnormal = "constant"\nrestitution = 1\ntangential_restitution = 1\n' >>"$case/DATA/walls.toml"

@@ -133,7 +133,7 @@ static void open_record(void)
         return;
     }
     fprintf(record, "zone,fate,time,mass,x,y,z,diameter,density,vx_in,vy_in,vz_in,wx_in,wy_in,wz_in,nx,ny,nz,ux,uy,uz,"
-                    "vx,vy,vz,wx,wy,wz\n");
+                    "vx,vy,vz,wx,wy,wz,draw0,draw1,draw2,draw3\n");
 }
 
 void carom_lagr_boundaries(void)
@@ -270,7 +270,7 @@ static void write_down(cs_lagr_particle_set_t *particles, cs_lnum_t p_id, const 
     for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++) {
         fprintf(record, ",%.17g,%.17g,%.17g", vectors[i][0], vectors[i][1], vectors[i][2]);
     }
-    fputc('\n', record);
+    fprintf(record, ",%.17g,%.17g,%.17g,%.17g\n", in->draws[0], in->draws[1], in->draws[2], in->draws[3]);
     if (ferror(record)) {
         record_fails();
     }
