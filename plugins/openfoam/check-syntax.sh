@@ -44,12 +44,13 @@ if [[ -n $api ]]; then
 fi
 
 failed=0
-for source in ${ONLY:-"$here"/src/*/*.C}; do
-    case $source in */interaction/*) continue ;; esac   # a template, compiled with each cloud
+mapfile -t sources < <(sed -n "s|.*\.C$|$here/src/&|p" "$here/src/Make/files")
+[[ -z ${ONLY:-} ]] || read -ra sources <<<"$ONLY"
+for source in "${sources[@]}"; do
     nice "${CXX:-g++}" -fsyntax-only -std=c++17 -m64 -fPIC "${release[@]}" -DWM_DP -DWM_LABEL_SIZE=32 -DWM_ARCH_OPTION=64 -Dlinux64 \
         -DNoRepository -ftemplate-depth-200 -Wall -Wextra -Wno-unused-parameter -Wno-deprecated-copy -Wno-deprecated-declarations \
         -Wno-attributes -Wno-cast-function-type -I"$here/src/law" -I"$here/src/record" -I"$here/src/release" -I"$here/src/interaction" ${CXXFLAGS:-} \
         -I"$root/crates/carom-c/include" "${includes[@]/#-I/-isystem}" "$source" || { echo "failed: $source" >&2; failed=1; }
 done
 (( failed == 0 )) || exit 1
-echo "$name: $(ls "$here"/src/{law,record,clouds}/*.C | wc -l) sources compile against $tree"
+echo "$name: ${#sources[@]} sources compile against $tree"
