@@ -60,6 +60,11 @@ pub trait Domain: Sync {
         false
     }
 
+    /// The cell of a mesh that a piece lies in; `None` without a mesh, and for no piece.
+    fn cell(&self, _here: Self::Here) -> Option<u32> {
+        None
+    }
+
     /// Whether a piece lies where nothing is known of the fluid but what holds at the edge of what is.
     fn is_beyond(&self, _here: Self::Here) -> bool {
         false

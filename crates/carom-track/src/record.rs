@@ -187,6 +187,8 @@ pub struct End {
     pub spin: Vec3,
     /// Trial steps it took.
     pub steps: u64,
+    /// Of a sphere that got stuck, the cell of the mesh that it was last in; none where it began outside the mesh.
+    pub cell: Option<u32>,
 }
 
 /// Who listens to a run. Events of one particle come in order.

@@ -42,6 +42,8 @@ pub(crate) enum What {
     ParticleFate,
     /// Validity codes, by their bits.
     Validity,
+    /// A cell's number; [`NO_WORD`] where there is none.
+    Cell,
 }
 
 impl What {
@@ -55,7 +57,7 @@ impl What {
 
     fn kind(self) -> Kind {
         match self {
-            Self::Count => Kind::Count,
+            Self::Count | Self::Cell => Kind::Count,
             Self::Float => Kind::Float,
             _ => Kind::Text,
         }
@@ -116,7 +118,8 @@ impl Words {
                 let codes = CODES.iter().filter(|(_, v, _)| code & v.bits() == v.bits()).map(|(word, _, _)| *word);
                 Cow::Owned(codes.collect::<Vec<_>>().join(" "))
             }
-            What::Count | What::Float => Cow::Borrowed(""),
+            What::Cell if code != NO_WORD => Cow::Owned(code.to_string()),
+            What::Count | What::Float | What::Cell => Cow::Borrowed(""),
         }
     }
 
@@ -160,7 +163,8 @@ pub(crate) fn push_end(columns: &mut Columns, e: &End, impacts: u64) {
     let wall = e.wall.map_or(NO_WORD, |w| w as u32);
     let mut row = columns.row();
     row.count(p.number).word(p.injection as u32).word(e.fate as u32).word(wall).float(e.time);
-    row.vector(e.position).vector(e.velocity).floats([p.diameter, p.weight, p.mass()]).count(impacts).end();
+    row.vector(e.position).vector(e.velocity).floats([p.diameter, p.weight, p.mass()]);
+    row.count(impacts).word(e.cell.unwrap_or(NO_WORD)).end();
 }
 
 /// Appends what a wall kept.
@@ -241,6 +245,7 @@ pub(crate) const LAYOUTS: [Layout; 4] = [
             ("weight", "", Float),
             ("mass", "kg", Float),
             ("impacts", "", Count),
+            ("cell", "", What::Cell),
         ],
     },
     Layout {
@@ -286,7 +291,7 @@ mod tests {
         let energies = carom::Energy::default().named().map(|(name, _)| name);
         assert_eq!(names[20..28], energies);
         assert_eq!(LAYOUTS[TRAJECTORIES].schema().len(), 11);
-        let fates = "particle,injection,fate,wall,time,x,y,z,vx,vy,vz,diameter,weight,mass,impacts\n";
+        let fates = "particle,injection,fate,wall,time,x,y,z,vx,vy,vz,diameter,weight,mass,impacts,cell\n";
         assert_eq!(LAYOUTS[FATES].header(), fates);
         assert!(ParticleFate::ALL.iter().enumerate().all(|(i, f)| *f as usize == i));
         assert!(Event::ALL.iter().enumerate().all(|(i, e)| e.index() as usize == i));

@@ -7,6 +7,7 @@ use std::process::{Command, Stdio};
 use std::time::Duration;
 
 const CHILD: &str = "CAROM_TRACK_CHILD";
+const WHICH: &str = "CAROM_TRACK_CASE";
 
 const CASE: &str = r#"
 seed = 9
@@ -34,8 +35,44 @@ velocity = ["1 m/s", "-1 m/s", "0.5 m/s"]
 until = "50 ms"
 "#;
 
-fn case() -> Case {
-    Case::from_toml(CASE, Path::new("kill.toml"), Library::builtin()).expect("a good case")
+/// Through the cells of a finished CFD result, with chance.
+const MESHED: &str = r#"
+seed = 9
+[flow]
+kind = "openfoam"
+case = "block"
+[forces]
+gravity = [0, -9.81, 0]
+random_walk = { model = "eddies" }
+[[wall]]
+patch = "inlet|outlet"
+law = "escape"
+[[wall]]
+patch = "lower"
+law = "plate"
+[[wall]]
+patch = "upper"
+law = "plate"
+[law.plate]
+surface = "silicon"
+normal = "ea"
+friction = 0.2
+[[injection]]
+material = "copper"
+diameter = { lognormal = { median = "40 um", gsd = 1.4 } }
+count = 12000
+position = { box = [["20 mm", "1 mm", "10 mm"], ["250 mm", "15 mm", "90 mm"]] }
+velocity = [0.5, -3, 0.4]
+[run]
+until = "4 ms"
+"#;
+
+const KILLED: [(&str, &str); 2] = [("room", CASE), ("meshed", MESHED)];
+
+fn case(name: &str) -> Case {
+    let at = Path::new(env!("CARGO_MANIFEST_DIR")).join("../carom-cfd/tests/cases/kill.toml");
+    let text = KILLED.iter().find(|(n, _)| *n == name).expect("a name").1;
+    Case::from_toml(text, &at, Library::builtin()).expect("a good case")
 }
 
 fn options(out: PathBuf, resume: bool) -> RunOptions {
@@ -52,20 +89,31 @@ fn next_particle(folder: &Path) -> u64 {
 #[test]
 fn child() {
     if let Some(folder) = std::env::var_os(CHILD) {
-        run(&case(), &options(folder.into(), true), &Silent).expect("the run");
+        let which = std::env::var(WHICH).expect("a case");
+        run(&case(&which), &options(folder.into(), true), &Silent).expect("the run");
     }
 }
 
 #[test]
 fn killed_and_resumed_is_as_never_killed() {
+    killed_and_resumed("room");
+}
+
+#[test]
+fn killed_and_resumed_in_a_mesh_is_as_never_killed() {
+    killed_and_resumed("meshed");
+}
+
+fn killed_and_resumed(which: &str) {
     let folder = tempfile::tempdir().expect("a folder");
     let (whole, killed) = (folder.path().join("whole"), folder.path().join("killed"));
-    run(&case(), &options(whole.clone(), false), &Silent).expect("the run");
+    run(&case(which), &options(whole.clone(), false), &Silent).expect("the run");
     let this = std::env::current_exe().expect("the test's own path");
     let start = || {
         Command::new(&this)
             .args(["child", "--exact"])
             .env(CHILD, &killed)
+            .env(WHICH, which)
             .stdout(Stdio::null())
             .stderr(Stdio::null())
             .spawn()

@@ -113,6 +113,10 @@ impl Domain for Meshed {
         here.is_nowhere()
     }
 
+    fn cell(&self, here: Tetrahedron) -> Option<u32> {
+        (!here.is_nowhere()).then_some(here.cell)
+    }
+
     #[inline(always)]
     fn fluid(&self, here: Tetrahedron, _time: f64, x: Vec3) -> Local {
         let mut local = self.cells.sample_in(&here, x);

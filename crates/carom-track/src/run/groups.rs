@@ -3,7 +3,7 @@
 use super::disk::{Disk, create};
 use super::stream::Stream;
 use super::{Remedy, RunError};
-use crate::record::columns::{Column, Columns};
+use crate::record::columns::{Column, Columns, NO_WORD};
 use crate::tables::{Layout, What, Words};
 use carom_table::{RowGroups, Schema, Table, TableReader};
 use std::collections::HashMap;
@@ -60,6 +60,10 @@ impl Groups {
             columns.into_columns().into_iter().zip(layout.columns).map(|(column, (name, unit, what))| match column {
                 Column::Count(v) => carom_table::Column::count(*name, v),
                 Column::Float(v) => carom_table::Column::float(*name, *unit, v),
+                Column::Word(codes) if *what == What::Cell => {
+                    let cell = |code: u32| (code != NO_WORD).then_some(u64::from(code));
+                    carom_table::Column::count(*name, codes.into_iter().map(cell))
+                }
                 Column::Word(codes) => {
                     let word = |code: u32| {
                         let text = self.texts.entry((*what, code)).or_insert_with(|| words.text(*what, code).into());

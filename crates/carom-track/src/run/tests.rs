@@ -379,6 +379,7 @@ fn a_box_from_stl_is_the_box() {
 }
 
 mod folder;
+mod meshed;
 mod power;
 mod results;
 

@@ -53,8 +53,8 @@ pub(super) enum Ending {
     Meets(Hit),
     /// Its steps ran out.
     Stalls,
-    /// It is outside the space.
-    Lost,
+    /// It is outside the space. It was last in that cell.
+    Lost(Option<u32>),
 }
 
 /// Force along the surface over the one across it that counts as none.
@@ -319,7 +319,7 @@ impl<'a, D: Domain> Contact<'a, D> {
                 self.next = h * share;
                 continue;
             }
-            let before = self.time;
+            let (before, left) = (self.time, self.here);
             let (theta, stop) = self.first_stop(&surface, kind, &trial, &path, h);
             self.worn += self.work(&surface, kind, &trial, h, theta);
             self.take(&surface, &trial, h, theta, until);
@@ -351,7 +351,7 @@ impl<'a, D: Domain> Contact<'a, D> {
             if self.walk.domain.is_lost(self.here) {
                 self.here = self.walk.domain.enter(self.time, self.motion.x);
                 if self.walk.domain.is_lost(self.here) {
-                    return Ending::Lost;
+                    return Ending::Lost(self.walk.domain.cell(left));
                 }
             }
         }

@@ -28,6 +28,8 @@ pub(super) struct Lane {
     pub trace: bool,
     /// It has been where nothing is known of the fluid.
     pub strayed: bool,
+    /// The cell of a mesh behind whose side its place was lost.
+    pub lost_from: Option<u32>,
     /// What changes at random.
     pub chance: Chance,
     /// How it diffuses.
@@ -61,6 +63,7 @@ impl Lane {
             fitted: false,
             trace,
             strayed: false,
+            lost_from: None,
             chance: Chance::NONE,
             diffusion: Diffusion::NONE,
         }

@@ -59,7 +59,10 @@ impl<D: Domain> Walk<'_, D> {
                     break (None, Some(ParticleFate::Sliding));
                 }
                 Ending::Leaves(event) => break (Some(event), None),
-                Ending::Lost => break (None, Some(ParticleFate::Stuck)),
+                Ending::Lost(cell) => {
+                    crew.lanes[l].lost_from = cell;
+                    break (None, Some(ParticleFate::Stuck));
+                }
                 Ending::Meets(hit) => {
                     blows += 1;
                     let off = contact.left_by();
@@ -124,7 +127,10 @@ impl<D: Domain> Walk<'_, D> {
                     sink.stalled();
                     return finish(crew, l, ParticleFate::Airborne, None, sink);
                 }
-                Ending::Lost => return finish(crew, l, ParticleFate::Stuck, None, sink),
+                Ending::Lost(cell) => {
+                    crew.lanes[l].lost_from = cell;
+                    return finish(crew, l, ParticleFate::Stuck, None, sink);
+                }
                 // held in a corner: it stays there as long as it is pushed
                 Ending::Rests => {
                     crew.time[l] = until;

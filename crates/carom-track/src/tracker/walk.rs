@@ -46,6 +46,10 @@ pub(super) const NO_WAY: f64 = 1e-9;
 pub(super) const ROUND: u32 = 2 * MOST_EDGES;
 /// And after which the sphere is lost.
 const LOST: u32 = 64 * MOST_EDGES;
+
+/// Edges of pieces that spheres went across, for tests that count them.
+#[cfg(test)]
+pub(super) static CROSSED: std::sync::atomic::AtomicU64 = std::sync::atomic::AtomicU64::new(0);
 /// Share of the step that the tolerance allows which is always worth trying.
 pub(super) const LEAST_SHARE: f64 = 1.0 / 64.0;
 /// What is left of a step that leads off an edge.
@@ -328,6 +332,8 @@ impl<D: Domain> Walk<'_, D> {
         factor: f64,
         sink: &mut dyn Sink,
     ) {
+        #[cfg(test)]
+        CROSSED.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
         let h = crew.h[l];
         if crew.lanes[l].trace {
             lane::trace(crew, l, theta, sink);
@@ -340,6 +346,7 @@ impl<D: Domain> Walk<'_, D> {
         let lane = &mut crew.lanes[l];
         lane.round = if theta < NO_WAY || crew.time[l] == before { lane.round + 1 } else { 0 };
         let round = lane.round > ROUND;
+        let left = crew.here[l];
         crew.here[l] = if round { self.domain.enter_ahead(into, met.position, met.velocity) } else { into };
         self.stray(crew, l, sink);
         let (mut x, mut v, mut spin) = (met.position, met.velocity, spin);
@@ -355,6 +362,7 @@ impl<D: Domain> Walk<'_, D> {
         }
         meeting::put(crew, l, x, v, spin);
         if self.domain.is_lost(crew.here[l]) || crew.lanes[l].round > LOST {
+            crew.lanes[l].lost_from = self.domain.cell(left);
             return finish(crew, l, ParticleFate::Stuck, None, sink);
         }
         let lane = &mut crew.lanes[l];
@@ -443,5 +451,6 @@ pub(super) fn finish<const W: usize, H>(
         velocity,
         spin,
         steps: crew.steps[l],
+        cell: lane.lost_from,
     });
 }

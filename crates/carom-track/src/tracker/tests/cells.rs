@@ -129,6 +129,106 @@ fn in_meshes_with_turned_cells_every_sphere_has_a_fate() {
 }
 
 #[test]
+fn a_stuck_sphere_says_in_which_cell() {
+    // a side that no wall stands at: what goes out there is lost
+    let kinds = |name: &str| if name == "right" { PatchKind::Plain } else { PatchKind::Wall };
+    let mesh = domain(&with_velocity(sides([4, 3, 2], kinds, |x| x), |_| [1.0, 0.0, 0.0]));
+    let AnyDomain::Meshed(meshed) = &mesh else { unreachable!("cells") };
+    let starts = [[0.1, 0.1, 0.2], [0.1, 0.9, 0.8], [0.9, 0.5, 0.3]];
+    let starts: Vec<Particle> =
+        (0..).zip(starts).map(|(i, x)| Particle::sphere(i, 40e-6, 2000.0, x, [1.0, 0.0, 0.0])).collect();
+    let log = fly(&mesh, &floating(Drag::SchillerNaumann), Behavior::Trap, 2.0, &starts);
+    for (end, start) in log.ends.iter().zip(&starts) {
+        let [_, y, z] = start.position;
+        assert!(end.fate == ParticleFate::Stuck && (end.position[0] - 1.0).abs() < 1e-9, "{end:?}");
+        assert_eq!(end.cell, Some(meshed.cells().find([0.99, y, z]).cell));
+    }
+    let fine = fly(
+        &mesh,
+        &floating(Drag::SchillerNaumann),
+        Behavior::Trap,
+        2.0,
+        &[Particle::sphere(9, 40e-6, 2000.0, [0.001, 0.5, 0.5], [-9.0, 0.0, 0.0])],
+    );
+    assert_eq!((fine.ends[0].fate, fine.ends[0].cell), (ParticleFate::Trapped, None));
+}
+
+type Place<'a> = &'a dyn Fn(Vec3) -> Vec3;
+
+/// Meshes that are hard to go through: each kind of cell shaken, skewed, flat, turned inside out, and bent into a hook.
+fn hard_meshes(seed: u64) -> Vec<(String, carom_cfd::Mesh)> {
+    let bend = |x: Vec3| {
+        let (r, turn) = (1.0 + x[0], 4.5 * x[1]);
+        let (s, c) = carom::math::sin_cos(turn);
+        [r * c, r * s, x[2]]
+    };
+    let shapes: [(&str, f64, Place); 5] = [
+        ("shaken", 0.3, &|x| x),
+        ("skewed", 0.2, &|x| [x[0] + 1.5 * x[1], x[1] + 0.7 * x[2], x[2]]),
+        ("flat", 0.2, &|x| [x[0], 0.01 * x[1], 3.0 * x[2]]),
+        ("turned", 1.0, &|x| x),
+        ("hook", 0.2, &bend),
+    ];
+    let mut all = Vec::new();
+    for kind in Kind::ALL {
+        for (name, share, place) in shapes {
+            let mut mesh = shaken(kind, [6, 8, 5], share, seed);
+            mesh.points.iter_mut().for_each(|x| *x = place(*x));
+            all.push((format!("{name} {kind:?}"), mesh));
+        }
+    }
+    all
+}
+
+/// `CAROM_CROSSINGS=1e9 cargo test --release -p carom-track --lib crossings -- --ignored --nocapture`
+#[test]
+#[ignore = "10⁷ crossings by default, 10⁹ in some ten minutes"]
+fn crossings_of_hard_meshes_lose_no_sphere() {
+    use super::super::walk::CROSSED;
+    use std::sync::atomic::Ordering;
+    let wanted = std::env::var("CAROM_CROSSINGS").map_or(1e7, |n| n.parse::<f64>().expect("a number"));
+    let (mut crossed, mut spheres, mut stuck) = (0, 0, std::collections::BTreeMap::<String, usize>::new());
+    let mut stalled = 0;
+    for seed in 1.. {
+        for (name, mesh) in hard_meshes(seed) {
+            let domain = domain(&with_velocity(mesh, |x| rolls(x.map(|c| 0.7 * c))));
+            let AnyDomain::Meshed(meshed) = &domain else { unreachable!("cells") };
+            let cells = meshed.cells();
+            let mut dice = Dice::new(seed + 1000);
+            let starts: Vec<Particle> = (0..200)
+                .map(|i| {
+                    let middle = cells.middle((dice.roll() * cells.len() as f64) as usize);
+                    Particle::sphere(i, 40e-6, 2000.0, middle, dice.point().map(|c| 4.0 * c - 2.0))
+                })
+                .collect();
+            let before = CROSSED.load(Ordering::Relaxed);
+            let log = fly(&domain, &floating(Drag::SchillerNaumann), bounce(0.9), 20.0, &starts);
+            crossed += CROSSED.load(Ordering::Relaxed) - before;
+            spheres += starts.len();
+            stalled += log.stalled;
+            assert_eq!(log.ends.len(), starts.len(), "{name} {seed}: every sphere has one fate");
+            for end in &log.ends {
+                if end.fate == ParticleFate::Stuck {
+                    *stuck.entry(name.clone()).or_default() += 1;
+                } else if !name.starts_with("turned") {
+                    let inside = !cells.find(end.position).is_nowhere();
+                    assert!(inside || meshed.walls().distance(end.position) < 1e-6, "{name} {seed} {end:?}");
+                }
+            }
+        }
+        println!(
+            "{crossed:.3e} crossings by {spheres} spheres, stuck {stuck:?}, stalled {stalled}",
+            crossed = crossed as f64
+        );
+        if crossed as f64 >= wanted {
+            break;
+        }
+    }
+    let sound = stuck.keys().filter(|name| !name.starts_with("turned")).count();
+    assert_eq!(sound, 0, "{stuck:?}");
+}
+
+#[test]
 fn poiseuille_s_flow_on_any_mesh_deposits_as_the_formula_does_the_better_the_finer_it_is() {
     let (height, length) = (0.02, 0.4);
     let channel = crate::flow::Channel::new(crate::flow::Profile::Laminar, height, 0.2, &Fluid::default()).unwrap();
