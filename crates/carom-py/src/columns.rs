@@ -1,6 +1,7 @@
 //! Arrays as columns of rows: broadcast without copies, spread over threads in chunks.
 
 use crate::numbers::{Input, numpy};
+use carom::ImpactError;
 use numpy::ndarray::{ArrayViewD, Axis, IxDyn};
 use numpy::{PyArrayDyn, PyArrayMethods as _, PyReadonlyArrayDyn, PyReadwriteArrayDyn, PyUntypedArrayMethods as _};
 use pyo3::exceptions::PyValueError;
@@ -136,6 +137,15 @@ pub fn index(shape: &[usize], mut row: usize) -> Vec<usize> {
     index
 }
 
+/// Where a row stands, for an error.
+pub fn place(shape: &[usize], row: usize) -> String {
+    let index = index(shape, row);
+    match &index[..] {
+        [one] => format!("row {one}"),
+        several => format!("row ({})", several.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")),
+    }
+}
+
 /// Copies rows lane by lane of the last axis.
 fn gather(view: &ArrayViewD<'_, f64>, from: usize, count: usize, room: &mut Vec<f64>) {
     let shape = view.shape();
@@ -179,4 +189,25 @@ pub fn over<T: Send>(threads: usize, items: impl Iterator<Item = T> + Send, work
         }
         all();
     });
+}
+
+/// The first row that is no impact, whichever thread meets it.
+pub struct First(Mutex<Option<(usize, ImpactError)>>);
+
+impl First {
+    pub const fn none() -> Self {
+        Self(Mutex::new(None))
+    }
+
+    /// A row that is none.
+    pub fn met(&self, row: usize, error: ImpactError) {
+        let mut first = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if first.is_none_or(|(other, _)| row < other) {
+            *first = Some((row, error));
+        }
+    }
+
+    pub fn row(self) -> Option<(usize, ImpactError)> {
+        self.0.into_inner().unwrap_or_else(PoisonError::into_inner)
+    }
 }

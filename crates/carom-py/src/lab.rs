@@ -2,6 +2,7 @@
 
 use crate::law::{Law, WallLaw};
 use crate::materials::Materials;
+use crate::numbers::whole;
 use crate::table::Table;
 use crate::words;
 use carom::material::Library;
@@ -24,8 +25,8 @@ pub fn fit<'py>(
     free: Vec<String>,
     bounds: Vec<(String, f64, f64)>,
     diameter: Option<f64>,
-    resamples: u32,
-    seed: u64,
+    #[pyo3(from_py_with = whole)] resamples: u32,
+    #[pyo3(from_py_with = whole)] seed: u64,
     resample: &str,
 ) -> PyResult<Bound<'py, PyDict>> {
     let law = &law.get().0;

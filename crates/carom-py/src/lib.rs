@@ -5,19 +5,23 @@
 mod columns;
 mod command;
 mod figures;
+mod impact;
 mod keys;
 mod lab;
 mod law;
 mod materials;
+mod met;
 mod numbers;
 mod outcome;
 mod outcomes;
 mod rows;
 mod run;
+mod spheres;
 mod study;
 mod table;
 mod words;
 
+use numbers::whole;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
@@ -41,7 +45,7 @@ fn validity(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
 /// -------
 /// tuple of str
 #[pyfunction]
-fn validity_codes(py: Python<'_>, bits: u32) -> PyResult<Bound<'_, PyTuple>> {
+fn validity_codes(py: Python<'_>, #[pyo3(from_py_with = whole)] bits: u32) -> PyResult<Bound<'_, PyTuple>> {
     let set = carom::validity::CODES.iter().filter(|(_, bit, _)| bits & bit.bits() != 0);
     PyTuple::new(py, set.map(|(code, _, _)| *code).collect::<Vec<_>>())
 }

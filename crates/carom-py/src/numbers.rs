@@ -2,7 +2,7 @@
 
 use carom::units::{Angle, AngularVelocity, Density, Length, Quantity, Speed};
 use numpy::{PyArrayDyn, PyArrayMethods as _, PyUntypedArrayMethods as _};
-use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::exceptions::{PyOverflowError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyString};
@@ -87,6 +87,22 @@ impl Input {
     }
 }
 
+/// A whole number from zero, or what stands for none. One that is negative or too large is a mistake like any other.
+pub fn whole<'a, 'py, T>(value: &'a Bound<'py, PyAny>) -> PyResult<T>
+where
+    T: FromPyObject<'a, 'py>,
+    T::Error: Into<PyErr>,
+{
+    value.extract::<T>().map_err(|error| {
+        let (error, py): (PyErr, _) = (error.into(), value.py());
+        if error.is_instance_of::<PyOverflowError>(py) {
+            PyValueError::new_err(format!("{value} is out of range: a whole number from 0 is wanted"))
+        } else {
+            error
+        }
+    })
+}
+
 /// One number, not an array.
 pub fn one(value: &Bound<'_, PyAny>, name: &str, what: What) -> PyResult<f64> {
     Input::of(value, name, what)?
@@ -95,16 +111,20 @@ pub fn one(value: &Bound<'_, PyAny>, name: &str, what: What) -> PyResult<f64> {
 }
 
 fn other(value: &Bound<'_, PyAny>, name: &str, what: What) -> PyResult<Input> {
-    if value.is_instance_of::<PyBool>() {
+    if value.is_none() || value.is_instance_of::<PyBool>() {
+        let kind = if value.is_none() { "None" } else { "a bool" };
         return Err(PyTypeError::new_err(format!(
-            "{name}: a bool; a number, a text with a unit or an array is wanted"
+            "{name}: {kind}; a number, a text with a unit or an array is wanted"
         )));
     }
     if let Ok(text) = value.cast::<PyString>() {
         return parse(&text.to_string_lossy(), name, what).map(Input::One);
     }
     if value.is_instance_of::<PyInt>() {
-        return value.extract().map(Input::One).map_err(|e| PyValueError::new_err(format!("{name}: {e}")));
+        return value
+            .extract()
+            .map(Input::One)
+            .map_err(|e| PyValueError::new_err(format!("{name}: {}", e.value(value.py()))));
     }
     match magnitude(value, name, what.unit())? {
         Some(number) => array(&number, name, what),

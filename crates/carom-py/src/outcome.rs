@@ -1,9 +1,9 @@
 //! What one impact came to.
 
 use crate::law::Law;
-use crate::rows::{One, as_row};
-use crate::{materials::html, words};
-use carom::{ImpactError, Outcome as Core};
+use crate::materials::html;
+use crate::met::{self, Met};
+use crate::spheres::Spheres;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use std::sync::Arc;
@@ -35,29 +35,15 @@ use std::sync::Arc;
 #[pyclass(frozen, module = "carom")]
 pub struct Outcome {
     pub law: Arc<Law>,
-    pub one: One,
-    pub met: Result<Core, ImpactError>,
-}
-
-impl Outcome {
-    fn row(&self) -> [f64; 5] {
-        self.met.as_ref().map_or([f64::NAN; 5], as_row)
-    }
-
-    fn named(&self) -> [(&'static str, f64); 8] {
-        let energy = self.met.as_ref().map_or_else(|_| carom::Energy::default(), |o| o.energy).named();
-        if self.met.is_ok() { energy } else { energy.map(|(name, _)| (name, f64::NAN)) }
-    }
+    pub one: Spheres<f64>,
+    pub met: Met,
 }
 
 #[pymethods]
 impl Outcome {
     #[getter]
     fn fate(&self) -> &'static str {
-        match &self.met {
-            Ok(out) => out.fate.name(),
-            Err(error) => words::fate(*error),
-        }
+        met::fate(&self.met)
     }
     #[getter]
     fn captured(&self) -> bool {
@@ -65,31 +51,31 @@ impl Outcome {
     }
     #[getter]
     fn normal(&self) -> f64 {
-        self.row()[0]
+        met::row(&self.met)[0]
     }
     #[getter]
     fn tangential(&self) -> f64 {
-        self.row()[1]
+        met::row(&self.met)[1]
     }
     #[getter]
     fn spin(&self) -> f64 {
-        self.row()[2]
+        met::row(&self.met)[2]
     }
     #[getter]
     fn restitution(&self) -> f64 {
-        self.row()[3]
+        met::row(&self.met)[3]
     }
     #[getter]
     fn impulse_ratio(&self) -> f64 {
-        self.row()[4]
+        met::row(&self.met)[4]
     }
     #[getter]
     fn tangential_restitution(&self) -> f64 {
-        self.met.as_ref().map_or(f64::NAN, |o| o.tangential_restitution)
+        met::tangential_restitution(&self.met)
     }
     #[getter]
     fn contact(&self) -> &'static str {
-        self.met.as_ref().map_or("none", |o| o.contact.name())
+        met::contact(&self.met).name()
     }
     #[getter]
     fn speed(&self) -> f64 {
@@ -105,7 +91,7 @@ impl Outcome {
     #[getter]
     fn energy<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let energy = PyDict::new(py);
-        for (name, share) in self.named() {
+        for (name, share) in met::energy(&self.met) {
             energy.set_item(name, share)?;
         }
         Ok(energy)
@@ -124,14 +110,12 @@ impl Outcome {
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let all = PyDict::new(py);
         all.set_item("fate", self.fate())?;
-        for (name, value) in
-            ["normal", "tangential", "spin", "restitution", "impulse_ratio"].into_iter().zip(self.row())
-        {
+        for (name, value) in met::COLUMNS.into_iter().zip(met::row(&self.met)) {
             all.set_item(name, value)?;
         }
         all.set_item("tangential_restitution", self.tangential_restitution())?;
         all.set_item("contact", self.contact())?;
-        for (name, share) in self.named() {
+        for (name, share) in met::energy(&self.met) {
             all.set_item(name, share)?;
         }
         all.set_item("validity", self.validity(py)?)?;
@@ -140,7 +124,7 @@ impl Outcome {
 
     /// As the command prints it.
     fn __repr__(&self) -> String {
-        let plain = self.one.density.is_none() && self.one.draws == [0.5; 4];
+        let plain = self.one.density.is_none() && self.one.draws.is_none_or(|d| d == [0.5; 4]);
         if self.met.is_ok() && plain {
             let (speed, angle) = self.one.speed_and_angle();
             let motion = [speed, angle, self.one.spin];
@@ -148,7 +132,7 @@ impl Outcome {
                 return text.trim_end().to_owned();
             }
         }
-        let [normal, tangential, spin, restitution, _] = self.row();
+        let [normal, tangential, spin, restitution, _] = met::row(&self.met);
         format!(
             "<carom.Outcome: {}, restitution {restitution:?}, normal {normal:?} m/s, tangential {tangential:?} m/s, spin {spin:?} rad/s>",
             self.fate()

@@ -1,12 +1,12 @@
 //! What impacts came to, in arrays.
 
-use crate::columns::{index, threads};
+use crate::columns::threads;
 use crate::law::Law;
-use crate::numbers::numpy;
-use crate::rows::Rows;
+use crate::met::{self, Met};
+use crate::numbers::{Input, numpy};
+use crate::spheres::Spheres;
 use crate::table::Table;
-use crate::words;
-use carom::{Contact, ImpactError, Outcome as Core};
+use carom::Contact;
 use numpy::PyArrayDyn;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
@@ -36,7 +36,7 @@ use std::sync::Arc;
 #[pyclass(frozen, module = "carom")]
 pub struct Outcomes {
     pub law: Arc<Law>,
-    pub rows: Rows,
+    pub rows: Spheres<Input>,
     pub shape: Vec<usize>,
     pub threads: Option<usize>,
     pub answer: [Py<PyArrayDyn<f64>>; 5],
@@ -64,29 +64,13 @@ impl More {
     }
 }
 
-const FATES: [&str; 8] = [
-    "rebound",
-    "capture",
-    "not-approaching",
-    "bad-diameter",
-    "bad-density",
-    "not-finite",
-    "friction-not-given",
-    "bad-curvature",
-];
-
-fn fate_code(met: &Result<Core, ImpactError>) -> f64 {
-    let word = met.as_ref().map_or_else(|e| words::fate(*e), |o| o.fate.name());
-    FATES.iter().position(|f| *f == word).map_or(f64::NAN, |p| p as f64)
-}
-
 const CONTACTS: [Contact; 4] = [Contact::None, Contact::Sliding, Contact::Rolling, Contact::MicroSlip];
 
 impl Outcomes {
     fn figures<'py, const WIDTH: usize>(
         &self,
         py: Python<'py>,
-        write: impl Fn(&Result<Core, ImpactError>) -> [f64; WIDTH] + Sync,
+        write: impl Fn(&Met) -> [f64; WIDTH] + Sync,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         let rows = self.shape.iter().product();
         let threads = threads(self.threads, rows, self.rows.cost(&self.law.wall).max(60));
@@ -97,10 +81,11 @@ impl Outcomes {
     fn words<'py>(
         &self,
         py: Python<'py>,
-        all: Vec<&'static str>,
-        code: impl Fn(&Result<Core, ImpactError>) -> f64 + Sync,
+        all: &[&'static str],
+        word: impl Fn(&Met) -> &'static str + Sync,
     ) -> PyResult<Py<PyAny>> {
-        let codes = self.figures(py, |met| [code(met)])?.get_item(0)?.call_method1("astype", ("uint8",))?;
+        let code = |met: &Met| [all.iter().position(|w| *w == word(met)).map_or(f64::NAN, |place| place as f64)];
+        let codes = self.figures(py, code)?.get_item(0)?.call_method1("astype", ("uint8",))?;
         Ok(numpy(py)?.call_method1("array", (all,))?.get_item(codes)?.unbind())
     }
 
@@ -108,9 +93,7 @@ impl Outcomes {
     fn columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let all = PyDict::new(py);
         all.set_item("fate", self.fate(py)?)?;
-        for (name, column) in
-            ["normal", "tangential", "spin", "restitution", "impulse_ratio"].into_iter().zip(&self.answer)
-        {
+        for (name, column) in met::COLUMNS.into_iter().zip(&self.answer) {
             all.set_item(name, column.bind(py))?;
         }
         all.set_item("tangential_restitution", self.tangential_restitution(py)?)?;
@@ -157,7 +140,7 @@ impl Outcomes {
 
     #[getter]
     fn fate(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
-        let fate = self.more.fate.get_or_try_init(py, || self.words(py, FATES.to_vec(), fate_code))?;
+        let fate = self.more.fate.get_or_try_init(py, || self.words(py, &met::FATES, met::fate))?;
         Ok(fate.clone_ref(py))
     }
 
@@ -168,27 +151,21 @@ impl Outcomes {
 
     #[getter]
     fn contact(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
-        let code = |met: &Result<Core, ImpactError>| {
-            let contact = met.as_ref().map_or(Contact::None, |o| o.contact);
-            CONTACTS.iter().position(|c| *c == contact).unwrap_or(0) as f64
-        };
-        let names = CONTACTS.iter().map(|c| c.name()).collect();
-        Ok(self.more.contact.get_or_try_init(py, || self.words(py, names, code))?.clone_ref(py))
+        let contact = |met: &Met| met::contact(met).name();
+        let names = CONTACTS.map(Contact::name);
+        Ok(self.more.contact.get_or_try_init(py, || self.words(py, &names, contact))?.clone_ref(py))
     }
 
     #[getter]
     fn tangential_restitution(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
-        let make = || {
-            let of = |met: &Result<Core, ImpactError>| [met.as_ref().map_or(f64::NAN, |o| o.tangential_restitution)];
-            Ok::<_, PyErr>(self.figures(py, of)?.get_item(0)?.unbind())
-        };
+        let make = || Ok::<_, PyErr>(self.figures(py, |met| [met::tangential_restitution(met)])?.get_item(0)?.unbind());
         Ok(self.more.tangential_restitution.get_or_try_init(py, make)?.clone_ref(py))
     }
 
     #[getter]
     fn validity(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
         let make = || {
-            let of = |met: &Result<Core, ImpactError>| [met.as_ref().map_or(0.0, |o| f64::from(o.validity.bits()))];
+            let of = |met: &Met| [met.as_ref().map_or(0.0, |o| f64::from(o.validity.bits()))];
             Ok::<_, PyErr>(self.figures(py, of)?.get_item(0)?.call_method1("astype", ("uint32",))?.unbind())
         };
         Ok(self.more.validity.get_or_try_init(py, make)?.clone_ref(py))
@@ -197,10 +174,7 @@ impl Outcomes {
     #[getter]
     fn energy(&self, py: Python<'_>) -> PyResult<Py<PyDict>> {
         let make = || {
-            let of = |met: &Result<Core, ImpactError>| {
-                met.as_ref().map_or([f64::NAN; 8], |o| o.energy.named().map(|(_, share)| share))
-            };
-            let shares = self.figures(py, of)?;
+            let shares = self.figures(py, |met| met::energy(met).map(|(_, share)| share))?;
             let energy = PyDict::new(py);
             for (place, (name, _)) in carom::Energy::default().named().into_iter().enumerate() {
                 energy.set_item(name, shares.get_item(place)?)?;
@@ -226,9 +200,8 @@ impl Outcomes {
         py: Python<'py>,
         requested_schema: Option<Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyCapsule>> {
-        let _ = requested_schema;
         let units = [("normal", "m/s"), ("tangential", "m/s"), ("spin", "rad/s")];
-        Table::of_arrays(&self.columns(py)?, &units)?.stream(py)
+        Table::of_arrays(&self.columns(py)?, &units)?.__arrow_c_stream__(py, requested_schema)
     }
 
     fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
@@ -244,14 +217,5 @@ impl Outcomes {
             self.law.described(),
             rows - captured - none,
         ))
-    }
-}
-
-/// Where a row stands, for an error.
-pub fn place(shape: &[usize], row: usize) -> String {
-    let index = index(shape, row);
-    match &index[..] {
-        [one] => format!("row {one}"),
-        several => format!("row ({})", several.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")),
     }
 }

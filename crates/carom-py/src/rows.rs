@@ -1,110 +1,24 @@
-//! What is asked of a law: one impact, or a row for each element of arrays.
+//! A law's answers to rows of arrays.
 
-use crate::columns::{CHUNK, Column, Held, empty, over, written};
+use crate::columns::{CHUNK, Column, First, Held, empty, over, written};
+use crate::met::{self, Met};
 use crate::numbers::Input;
+use crate::spheres::Spheres;
 use carom::batch::{BatchError, Incidence, Rebound};
-use carom::impact::{components, components_on};
+use carom::impact::components_on;
 use carom::instructions::{InstructionSet, Work};
 use carom::math::Fma;
 use carom::normal::NormalLaw;
-use carom::{Fate, Impact, ImpactError, Outcome, WallLaw};
+use carom::{ImpactError, WallLaw};
 use numpy::PyArrayDyn;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
-use std::sync::{Mutex, PoisonError};
+use std::sync::atomic::{AtomicBool, Ordering};
 
-/// How the spheres come.
-#[derive(Debug)]
-pub struct Rows {
-    pub diameter: Input,
-    /// Speed and angle, or normal and tangential speed.
-    pub motion: [Input; 2],
-    pub by_angle: bool,
-    pub spin: Input,
-    pub density: Option<Input>,
-    /// Four columns.
-    pub draws: Option<[Input; 4]>,
-}
-
-/// The five columns of an answer: normal and tangential speed, spin, restitution, impulse ratio.
+/// The five columns of an answer, as `met::COLUMNS` names them.
 pub type Answer<'py> = [Bound<'py, PyArrayDyn<f64>>; 5];
 
-/// One row in plain numbers.
-#[derive(Clone, Copy, Debug)]
-pub struct One {
-    pub diameter: f64,
-    pub motion: [f64; 2],
-    pub by_angle: bool,
-    pub spin: f64,
-    pub density: Option<f64>,
-    pub draws: [f64; 4],
-}
-
-impl One {
-    /// On a wall at y = 0, with the sphere above it moving along +x.
-    #[inline]
-    pub fn impact(&self) -> Impact {
-        let [a, b] = self.motion;
-        let (normal, tangential) = if self.by_angle { components(a, b) } else { (a, b) };
-        Impact {
-            density: self.density,
-            spin: [0.0, 0.0, -self.spin],
-            draws: self.draws,
-            ..Impact::new(self.diameter, [tangential, -normal, 0.0], [0.0, 1.0, 0.0])
-        }
-    }
-
-    /// Speed and angle in degrees.
-    pub fn speed_and_angle(&self) -> (f64, f64) {
-        let [a, b] = self.motion;
-        match (self.by_angle, b == 0.0) {
-            (true, _) => (a, b),
-            (false, true) => (a, 90.0),
-            (false, false) => (a.hypot(b), a.atan2(b).to_degrees()),
-        }
-    }
-}
-
-/// An outcome as a batch writes it: normal and tangential speed, spin, restitution, impulse ratio. Zeros have no sign, which says nothing
-/// here and need not be the same in both.
-#[inline]
-pub fn as_row(out: &Outcome) -> [f64; 5] {
-    match out.fate {
-        Fate::Capture => [0.0, 0.0, 0.0, 0.0, f64::NAN],
-        Fate::Rebound => {
-            [out.velocity[1] + 0.0, out.velocity[0] + 0.0, 0.0 - out.spin[2], out.restitution, out.impulse_ratio]
-        }
-    }
-}
-
-impl Rows {
-    /// All inputs with their names.
-    pub fn inputs(&self) -> Vec<(&'static str, &Input)> {
-        let names = if self.by_angle { ["speed", "angle"] } else { ["normal", "tangential"] };
-        let mut all = vec![("diameter", &self.diameter)];
-        all.extend(names.into_iter().zip(&self.motion));
-        all.push(("spin", &self.spin));
-        all.extend(self.density.as_ref().map(|d| ("density", d)));
-        all.extend(self.draws.iter().flatten().map(|d| ("draws", d)));
-        all
-    }
-
-    /// The row, if all are single numbers.
-    #[inline]
-    pub fn one(&self) -> Option<One> {
-        let density = match &self.density {
-            None => None,
-            Some(density) => Some(density.one()?),
-        };
-        let draws = match &self.draws {
-            None => [0.5; 4],
-            Some([a, b, c, d]) => [a.one()?, b.one()?, c.one()?, d.one()?],
-        };
-        let motion = [self.motion[0].one()?, self.motion[1].one()?];
-        let (diameter, spin) = (self.diameter.one()?, self.spin.one()?);
-        Some(One { diameter, motion, by_angle: self.by_angle, spin, density, draws })
-    }
-
+impl Spheres<Input> {
     /// About what a row costs, ns.
     pub fn cost(&self, law: &WallLaw) -> usize {
         match law.normal() {
@@ -115,21 +29,6 @@ impl Rows {
         }
     }
 
-    fn held<'py>(&self, py: Python<'py>) -> PyResult<HeldRows<'py>> {
-        let of = |input: &Input| Held::of(py, input);
-        Ok(HeldRows {
-            diameter: of(&self.diameter)?,
-            motion: [of(&self.motion[0])?, of(&self.motion[1])?],
-            by_angle: self.by_angle,
-            spin: of(&self.spin)?,
-            density: self.density.as_ref().map(of).transpose()?,
-            draws: match &self.draws {
-                None => None,
-                Some([a, b, c, d]) => Some([of(a)?, of(b)?, of(c)?, of(d)?]),
-            },
-        })
-    }
-
     /// The law's answers, and the first row that is no impact.
     pub fn answer<'py>(
         &self,
@@ -138,11 +37,11 @@ impl Rows {
         shape: &[usize],
         threads: usize,
     ) -> PyResult<(Answer<'py>, Option<(usize, ImpactError)>)> {
-        let held = self.held(py)?;
-        let columns = held.columns(shape);
+        let held = self.try_map(|input| Held::of(py, input))?;
+        let columns = held.map(|input| input.column(shape));
         let out: Answer =
             [empty(py, shape)?, empty(py, shape)?, empty(py, shape)?, empty(py, shape)?, empty(py, shape)?];
-        let first: Mutex<Option<(usize, ImpactError)>> = Mutex::new(None);
+        let first = First::none();
         {
             let [n, t, w, e, r] = &out;
             let mut guards = [written(n)?, written(t)?, written(w)?, written(e)?, written(r)?];
@@ -153,16 +52,12 @@ impl Rows {
                 let chunks = chunks(slices).enumerate();
                 over(threads, chunks, |(number, out)| {
                     if let Err((index, error)) = columns.answer(law, number * CHUNK, out) {
-                        let mut first = first.lock().unwrap_or_else(PoisonError::into_inner);
-                        let index = number * CHUNK + index;
-                        if first.is_none_or(|(other, _)| index < other) {
-                            *first = Some((index, error));
-                        }
+                        first.met(number * CHUNK + index, error);
                     }
                 });
             });
         }
-        Ok((out, first.into_inner().unwrap_or_else(PoisonError::into_inner)))
+        Ok((out, first.row()))
     }
 
     /// Figures of each row that the answer's columns do not hold, one array of `WIDTH` by the rows. The answer is computed again and
@@ -173,14 +68,14 @@ impl Rows {
         law: &WallLaw,
         (shape, threads): (&[usize], usize),
         answer: [&Bound<'py, PyArrayDyn<f64>>; 3],
-        write: impl Fn(&Result<Outcome, ImpactError>) -> [f64; WIDTH] + Sync,
+        write: impl Fn(&Met) -> [f64; WIDTH] + Sync,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        let held = self.held(py)?;
-        let columns = held.columns(shape);
+        let held = self.try_map(|input| Held::of(py, input))?;
+        let columns = held.map(|input| input.column(shape));
         let whole: Vec<usize> = std::iter::once(WIDTH).chain(shape.iter().copied()).collect();
         let out = empty(py, &whole)?;
         let rows: usize = shape.iter().product();
-        let changed = Mutex::new(false);
+        let changed = AtomicBool::new(false);
         {
             let input = |a: &Bound<'py, PyArrayDyn<f64>>| Held::of(py, &Input::Many(a.clone().unbind()));
             let before = [input(answer[0])?, input(answer[1])?, input(answer[2])?];
@@ -196,10 +91,10 @@ impl Rows {
                 over(threads, chunks(slices).enumerate(), |(number, mut out)| {
                     for place in 0..out[0].len() {
                         let row = number * CHUNK + place;
-                        let met = law.impact(&columns.one(row).impact());
-                        let now = met.as_ref().map_or([f64::NAN; 5], as_row);
+                        let met = law.impact(&columns.map(|column| column.row(row)).impact());
+                        let now = met::row(&met);
                         if before.iter().zip(now).any(|(b, n)| !same(b.row(row), n)) {
-                            *changed.lock().unwrap_or_else(PoisonError::into_inner) = true;
+                            changed.store(true, Ordering::Relaxed);
                         }
                         for (column, value) in out.iter_mut().zip(write(&met)) {
                             column[place] = value;
@@ -208,7 +103,7 @@ impl Rows {
                 });
             });
         }
-        if changed.into_inner().unwrap_or_else(PoisonError::into_inner) {
+        if changed.into_inner() {
             return Err(PyRuntimeError::new_err(
                 "the arrays that went into or came out of impact() were changed since; ask for this before, or work on copies",
             ));
@@ -233,37 +128,6 @@ fn chunks<const N: usize>(columns: [&mut [f64]; N]) -> impl Iterator<Item = [&mu
     })
 }
 
-struct HeldRows<'py> {
-    diameter: Held<'py>,
-    motion: [Held<'py>; 2],
-    by_angle: bool,
-    spin: Held<'py>,
-    density: Option<Held<'py>>,
-    draws: Option<[Held<'py>; 4]>,
-}
-
-impl HeldRows<'_> {
-    fn columns(&self, shape: &[usize]) -> Columns<'_> {
-        Columns {
-            diameter: self.diameter.column(shape),
-            motion: [self.motion[0].column(shape), self.motion[1].column(shape)],
-            by_angle: self.by_angle,
-            spin: self.spin.column(shape),
-            density: self.density.as_ref().map(|d| d.column(shape)),
-            draws: self.draws.as_ref().map(|d| [0, 1, 2, 3].map(|i| d[i].column(shape))),
-        }
-    }
-}
-
-struct Columns<'a> {
-    diameter: Column<'a>,
-    motion: [Column<'a>; 2],
-    by_angle: bool,
-    spin: Column<'a>,
-    density: Option<Column<'a>>,
-    draws: Option<[Column<'a>; 4]>,
-}
-
 /// Speeds and angles as normal and tangential speeds, on the widest vectors.
 struct Components<'a> {
     speed: &'a [f64],
@@ -284,18 +148,7 @@ impl Work for Components<'_> {
     }
 }
 
-impl Columns<'_> {
-    fn one(&self, row: usize) -> One {
-        One {
-            diameter: self.diameter.row(row),
-            motion: [self.motion[0].row(row), self.motion[1].row(row)],
-            by_angle: self.by_angle,
-            spin: self.spin.row(row),
-            density: self.density.as_ref().map(|d| d.row(row)),
-            draws: self.draws.as_ref().map_or([0.5; 4], |d| [0, 1, 2, 3].map(|i| d[i].row(row))),
-        }
-    }
-
+impl Spheres<Column<'_>> {
     /// A chunk of answers; the first row that is no impact, counted from the chunk's first.
     fn answer(&self, law: &WallLaw, from: usize, out: [&mut [f64]; 5]) -> Result<(), (usize, ImpactError)> {
         if self.density.is_some() || self.draws.is_some() {
@@ -337,8 +190,8 @@ impl Columns<'_> {
     fn one_by_one(&self, law: &WallLaw, from: usize, mut out: [&mut [f64]; 5]) -> Result<(), (usize, ImpactError)> {
         let mut first = Ok(());
         for place in 0..out[0].len() {
-            let met = law.impact(&self.one(from + place).impact());
-            let row = met.as_ref().map_or([f64::NAN; 5], as_row);
+            let met = law.impact(&self.map(|column| column.row(from + place)).impact());
+            let row = met::row(&met);
             for (column, value) in out.iter_mut().zip(row) {
                 column[place] = value;
             }

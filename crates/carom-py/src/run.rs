@@ -1,6 +1,7 @@
 //! Particles of a case from injection to fate.
 
 use crate::materials::Materials;
+use crate::numbers::whole;
 use crate::words;
 use carom_track::case::Sources;
 use carom_track::{About, Progress, RunOptions, Shard};
@@ -87,7 +88,7 @@ impl Case {
         &self,
         py: Python<'_>,
         out: PathBuf,
-        threads: usize,
+        #[pyo3(from_py_with = whole)] threads: usize,
         resume: bool,
         force: bool,
         shard: Option<(u64, u64)>,

@@ -2,8 +2,9 @@
 
 use crate::columns::{Held, shape};
 use crate::law::WallLaw;
-use crate::numbers::{Input, What, numpy};
-use crate::rows::{One, as_row};
+use crate::met::as_row;
+use crate::numbers::{Input, What, numpy, whole};
+use crate::spheres::Spheres;
 use crate::{keys, words};
 use carom::ImpactError;
 use carom::spec::{Key, LawSpec};
@@ -77,8 +78,8 @@ pub fn sticking<'py>(
     speed: &Bound<'py, PyAny>,
     angle: Option<&Bound<'py, PyAny>>,
     spin: Option<&Bound<'py, PyAny>>,
-    samples: u32,
-    seed: u64,
+    #[pyo3(from_py_with = whole)] samples: u32,
+    #[pyo3(from_py_with = whole)] seed: u64,
     keys: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let law = &law.get().0;
@@ -132,8 +133,8 @@ pub fn sticking<'py>(
             |wall, sample, point| {
                 let [own, speed, angle, spin] = rows[point];
                 let diameter = drawn.diameter.as_ref().map_or(own, |d| d.quantile(sampling.draw(sample, 0)));
-                let draws = if scatters { sampling.impact(sample) } else { [0.5; 4] };
-                let one = One { diameter, motion: [speed, angle], by_angle: true, spin, density: None, draws };
+                let draws = scatters.then(|| sampling.impact(sample));
+                let one = Spheres { diameter, motion: [speed, angle], by_angle: true, spin, density: None, draws };
                 let out = wall.impact(&one.impact()).map_err(Failed::Impact)?;
                 let [normal, tangential, ..] = as_row(&out);
                 let rebounds = out.fate == carom::Fate::Rebound;

@@ -7,7 +7,8 @@ use arrow_array::cast::AsArray as _;
 use arrow_array::ffi_stream::FFI_ArrowArrayStream;
 use arrow_array::types::{Float64Type, Int64Type, UInt64Type};
 use arrow_array::{
-    Array as _, ArrayRef, Float64Array, Int64Array, RecordBatch, RecordBatchIterator, StringArray, UInt64Array,
+    Array as _, ArrayRef, ArrowPrimitiveType, Float64Array, Int64Array, RecordBatch, RecordBatchIterator, StringArray,
+    UInt64Array,
 };
 use arrow_schema::{ArrowError, DataType, Field, Schema};
 use carom_table::{TableReader, Values};
@@ -102,19 +103,26 @@ impl Table {
         Self::new(columns)
     }
 
-    /// As an Arrow stream.
-    pub fn stream<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyCapsule>> {
-        let schema = self.batch.schema();
-        let batches = RecordBatchIterator::new([Ok(self.batch.clone())], schema);
-        PyCapsule::new_with_value(py, FFI_ArrowArrayStream::new(Box::new(batches)), c"arrow_array_stream")
-    }
-
     fn column(&self, name: &str) -> PyResult<&ArrayRef> {
         let known = || self.column_names().join(", ");
         self.batch
             .column_by_name(name)
             .ok_or_else(|| PyKeyError::new_err(format!("no column '{name}'; there are {}", known())))
     }
+}
+
+/// Whole numbers as they are, or as floats with NaN where one is missing.
+fn whole_numbers<'py, T: ArrowPrimitiveType<Native: numpy::Element>>(
+    py: Python<'py>,
+    column: &ArrayRef,
+    float: impl Fn(T::Native) -> f64,
+) -> Bound<'py, PyAny> {
+    let column = column.as_primitive::<T>();
+    if column.null_count() == 0 {
+        return PyArray1::from_slice(py, column.values()).into_any();
+    }
+    let values: Vec<f64> = column.iter().map(|v| v.map_or(f64::NAN, &float)).collect();
+    PyArray1::from_vec(py, values).into_any()
 }
 
 /// A column that grows batch by batch.
@@ -199,25 +207,10 @@ impl Table {
     /// A column as a NumPy array.
     fn __getitem__<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
         let column = self.column(name)?;
-        let whole = column.null_count() == 0;
         match column.data_type() {
             DataType::Float64 => Ok(PyArray1::from_slice(py, column.as_primitive::<Float64Type>().values()).into_any()),
-            DataType::UInt64 if whole => {
-                Ok(PyArray1::from_slice(py, column.as_primitive::<UInt64Type>().values()).into_any())
-            }
-            DataType::Int64 if whole => {
-                Ok(PyArray1::from_slice(py, column.as_primitive::<Int64Type>().values()).into_any())
-            }
-            DataType::UInt64 => {
-                let values: Vec<f64> =
-                    column.as_primitive::<UInt64Type>().iter().map(|v| v.map_or(f64::NAN, |v| v as f64)).collect();
-                Ok(PyArray1::from_vec(py, values).into_any())
-            }
-            DataType::Int64 => {
-                let values: Vec<f64> =
-                    column.as_primitive::<Int64Type>().iter().map(|v| v.map_or(f64::NAN, |v| v as f64)).collect();
-                Ok(PyArray1::from_vec(py, values).into_any())
-            }
+            DataType::UInt64 => Ok(whole_numbers::<UInt64Type>(py, column, |v| v as f64)),
+            DataType::Int64 => Ok(whole_numbers::<Int64Type>(py, column, |v| v as f64)),
             _ => {
                 let texts: Vec<&str> = column.as_string::<i32>().iter().map(Option::unwrap_or_default).collect();
                 numpy(py)?.call_method1("array", (texts,))
@@ -247,14 +240,15 @@ impl Table {
 
     /// The table by Arrow's PyCapsule interface.
     #[pyo3(signature = (requested_schema=None))]
-    fn __arrow_c_stream__<'py>(
+    pub fn __arrow_c_stream__<'py>(
         &self,
         py: Python<'py>,
         requested_schema: Option<Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyCapsule>> {
         // a schema is a wish: what is there is given as it is
         let _ = requested_schema;
-        self.stream(py)
+        let batches = RecordBatchIterator::new([Ok(self.batch.clone())], self.batch.schema());
+        PyCapsule::new_with_value(py, FFI_ArrowArrayStream::new(Box::new(batches)), c"arrow_array_stream")
     }
 
     fn __repr__(&self) -> String {

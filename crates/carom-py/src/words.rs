@@ -66,19 +66,6 @@ pub fn of_impact(error: ImpactError, place: &str) -> PyErr {
     PyValueError::new_err(format!("{place}{colon}{error}{remedy}"))
 }
 
-/// The word for what is no impact, where a fate would stand.
-pub fn fate(error: ImpactError) -> &'static str {
-    match error {
-        ImpactError::NotApproaching => "not-approaching",
-        ImpactError::Diameter => "bad-diameter",
-        ImpactError::Density => "bad-density",
-        ImpactError::NotFinite => "not-finite",
-        ImpactError::FrictionNotGiven => "friction-not-given",
-        ImpactError::Curvature => "bad-curvature",
-        _ => "no-impact",
-    }
-}
-
 /// A run that could not be made. What to do next is said in the words of `carom.run`.
 pub fn of_run(error: RunError) -> PyErr {
     match &error {

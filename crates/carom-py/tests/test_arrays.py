@@ -8,7 +8,7 @@ import tracemalloc
 
 import numpy as np
 import pytest
-from conftest import same
+from conftest import ROOT, same
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
@@ -247,3 +247,27 @@ def test_sweep() -> None:
     data = carom.sweep(LAW, speed=N, diameter="90 um", energy=True)
     assert isinstance(data, xarray.Dataset) and data.restitution.dims == ("speed",) and data.speed.attrs["units"] == "m/s"
     assert float(data.kept[3]) == LAW.impact(9e-5, 3.0).energy["kept"]
+
+
+def test_numbers_out_of_range_and_things_of_the_wrong_kind_are_mistakes_like_any_other(copper: carom.WallLaw) -> None:
+    for wrong in [
+        lambda: copper.impact(np.full(3, 9e-5), 2, threads=-1),
+        lambda: carom.sticking(copper, "lognormal(50um, 1.3)", 0.05, samples=-3),
+        lambda: carom.sticking(copper, "lognormal(50um, 1.3)", 0.05, samples=10**12),
+        lambda: carom.sticking(copper, "lognormal(50um, 1.3)", 0.05, seed=-1),
+        lambda: carom.run(ROOT / "examples/wind-tunnel.toml", threads=-1),
+        lambda: carom.validity_codes(2**40),
+        lambda: copper.impact(10**400, 2),
+    ]:
+        with pytest.raises(ValueError, match=r"is out of range|too large"):
+            wrong()
+    for missing in [lambda: copper.impact(None, 2), lambda: copper.capture_velocity(None)]:
+        with pytest.raises(TypeError, match="diameter: None"):
+            missing()
+    for case in [{"flow": None}, {"wall": {}}, {"wall": ["floor"]}, {"injection": "dust"}]:
+        with pytest.raises(TypeError, match=r"(a dict|a list of dicts) is wanted, not"):
+            carom.run(case)
+    with pytest.raises(TypeError, match="executor: .* not int"):
+        carom.run({"flow": {"kind": "still"}}, executor=3)
+    one, many = copper.impact(np.full(5, 9e-5), 2, threads=1), copper.impact(np.full(5, 9e-5), 2, threads=0)
+    assert (one.restitution == many.restitution).all()

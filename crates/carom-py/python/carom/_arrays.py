@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -42,15 +42,22 @@ def prepared(case: str | os.PathLike[str] | Mapping[str, Any]) -> Prepared:
 
 def _table(name: str, value: Any, sources: dict[str, bytes]) -> Any:
     """A table of a case without arrays that only a file could hold."""
-    if name == "flow" and _is_columns(value.get("columns")):
+    if name == "flow" and _is_columns(_dict(name, value).get("columns")):
         value = dict(value)
         file = "columns of flow.csv"
         sources[file] = _csv(value.pop("columns"), _FLOW, "flow")
         return {**value, "file": file}
-    if name == "wall":
-        return [_wall(i, wall, sources) for i, wall in enumerate(value)]
-    if name == "injection":
-        return [_injection(i, injection, sources) for i, injection in enumerate(value)]
+    if name in ("wall", "injection"):
+        if not isinstance(value, Sequence) or isinstance(value, str):
+            raise TypeError(f"{name}: a list of dicts is wanted, not {type(value).__name__}")
+        of = _wall if name == "wall" else _injection
+        return [of(i, _dict(f"{name} {i + 1}", one), sources) for i, one in enumerate(value)]
+    return value
+
+
+def _dict(name: str, value: Any) -> Mapping[str, Any]:
+    if not isinstance(value, Mapping):
+        raise TypeError(f"{name}: a dict is wanted, not {type(value).__name__}")
     return value
 
 

@@ -152,6 +152,8 @@ def run(
     >>> found.summary["injected"]
     1
     """
+    if executor is not None and not hasattr(executor, "submit"):
+        raise TypeError(f"executor: a concurrent.futures.Executor is wanted, not {type(executor).__name__}")
     ready = prepared(case)
     read = ready.read(materials)
     folder = Path(tempfile.mkdtemp(prefix="carom-")) if out is None else Path(out)
