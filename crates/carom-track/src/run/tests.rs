@@ -378,6 +378,7 @@ fn a_box_from_stl_is_the_box() {
     assert!(lost.unwrap_err().to_string().contains("bix.stl"));
 }
 
+mod brownian;
 mod folder;
 mod meshed;
 mod power;
