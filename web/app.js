@@ -43,7 +43,8 @@ function ask(job) {
 function compute() {
   const law = given(state.law), m = motion(state.motion, state.over);
   const span = ends(state);
-  if (!Number.isFinite(m[state.over])) m[state.over] = Math.sqrt(span[0] * span[1]);
+  if (OVERS.includes(state.over) && !Number.isFinite(m[state.over])) m[state.over] = Math.sqrt(span[0] * span[1]);
+  const here = m[state.over] ?? (law[state.over] ? KERNEL.quantity(state.over, law[state.over]) : NaN);
   const oblique = isOblique(m) || state.over === "angle";
   KERNEL.law(0, toml(law), oblique);
   const row = KERNEL.sweep(0, "angle", 2, m.angle, m.angle, true, m)[0];
@@ -52,7 +53,7 @@ function compute() {
     const of = (fields) => { KERNEL.law(1, toml(fields), oblique); return rowsOf(1, state, km, span); };
     return { ...k, low: of(k.law), high: k.to ? of(k.to) : null };
   });
-  return { s: state, law, m, span, oblique, row, own: rowsOf(0, state, m, span), kept, figures: KERNEL.figures(0, m), pointsFrom: pointsFrom() };
+  return { s: state, law, m, span, here, oblique, row, own: rowsOf(0, state, m, span), kept, figures: KERNEL.figures(0, m), pointsFrom: pointsFrom() };
 }
 
 const pointsFrom = () => PRESETS.find((p) => p.id === state.preset)?.pointsFrom ?? "your points";
@@ -126,6 +127,14 @@ async function slow(shown, mine) {
   const speeds = shown.s.over === "speed" ? shown.span : [0.01, 100], d = shown.m.diameter;
   const diameters = shown.s.over === "diameter" ? shown.span : [Math.max(1e-10, d / 30), Math.min(1, d * 30)];
   document.getElementById("history-figure").hidden = !resolved;
+  const scatters = OVERS.includes(shown.s.over) && KERNEL.scatters(0);
+  if (scatters) {
+    const job = { ...base, what: "spread", over: shown.s.over, count: SPREAD.points, span: shown.span, linear: isLinear(shown.s.over, shown.span[0]), samples: SPREAD.samples };
+    const { spread } = await ask(job);
+    if (mine !== turn) return;
+    if (spread) { shown.spread = spread; drawCurves(shown); }
+  }
+  document.getElementById("spread-save").hidden = !shown.spread;
   const asked = [ask({ ...base, what: "map", columns, rows, speeds, diameters })];
   if (resolved) asked.unshift(ask({ ...base, what: "history" }));
   const [first, second] = await Promise.all(asked);

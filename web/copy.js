@@ -9,19 +9,19 @@ function lawFlags(law) {
 }
 
 /** A bare number before one with a unit would take that unit, so both ends carry theirs. */
-const withUnit = (over, text) => (over === "angle" || !isNumber(text) ? text.trim().replace(/ /g, "") : `${text.trim()}${over === "speed" ? "m/s" : "m"}`);
+const withUnit = (over, text) => text.trim().replace(/ /g, "") + (isNumber(text) ? { speed: "m/s", diameter: "m" }[over] ?? "" : "");
 
 /** The impact and the sweep that the page shows. */
 function commands(law, s) {
   const m = s.motion;
   const spin = m.spin.trim() && Number(m.spin) !== 0 ? [`--spin ${shell(m.spin.trim())}`] : [];
   const head = (skip) => ["diameter", "speed", "angle"].filter((k) => k !== skip).map((k) => `--${k} ${shell(m[k].trim())}`).concat(spin);
-  const flags = lawFlags(law);
+  const flags = lawFlags(law), along = lawFlags(Object.fromEntries(Object.entries(law).filter(([k]) => k !== s.over)));
   const lines = (words, parts) => [words, ...parts].join(" \\\n  ");
-  const over = `--over ${s.over}=${withUnit(s.over, s.range[0])}..${withUnit(s.over, s.range[1])}`;
+  const over = `--over ${s.over.replaceAll("_", "-")}=${withUnit(s.over, s.range[0])}..${withUnit(s.over, s.range[1])}`;
   return {
     impact: lines("carom impact", [...flags, ...head()]),
-    sweep: lines("carom sweep", [...flags, ...head(s.over), over, `--quantity ${s.quantity.replaceAll("_", "-")} --plot curve.svg --out curve.csv`]),
+    sweep: lines("carom sweep", [...along, ...head(s.over), over, `--quantity ${s.quantity.replaceAll("_", "-")} --plot curve.svg --out curve.csv`]),
   };
 }
 

@@ -1,6 +1,9 @@
 // What people do: fields, sliders, presets, files, copies, pictures.
 "use strict";
 
+/** Keys of which a law has one. */
+const ONE_OF = { roughness: "roughness_factor", roughness_factor: "roughness", well_depth: "hamaker_constant", hamaker_constant: "well_depth" };
+
 function own() {
   if (!state.preset) return;
   // a law of one's own keeps the preset's curves and points to compare with
@@ -13,7 +16,7 @@ function edit(kind, key, value) {
   else state[kind][key] = value;
   if (kind === "motion" && value.trim() === "") state.motion[key] = "";
   // each says what the other says
-  const other = { roughness: "roughness_factor", roughness_factor: "roughness", well_depth: "hamaker_constant", hamaker_constant: "well_depth" }[key];
+  const other = ONE_OF[key];
   if (kind === "law" && other && value.trim() !== "") delete state.law[other];
   changed();
 }
@@ -40,11 +43,17 @@ function standalone(id) {
   return `<?xml version="1.0" encoding="UTF-8"?>\n${body}\n`;
 }
 
+/** What runs, as the head of a column: its name and unit, as the command writes them. */
+function runningHead(over) {
+  if (over === "angle") return "angle_deg";
+  const unit = { speed: "m/s", diameter: "m" }[over] ?? LISTS.keys.find((k) => k.name === over).unit;
+  return unit ? `${over} (${unit})` : over;
+}
+
 /** The table of a figure, SI units, with every digit. */
 function csvOf(id) {
   const { s, own: mine, kept } = SHOWN;
-  const names = { speed: "speed", diameter: "diameter", angle: "angle_deg" };
-  const head = [names[s.over], "fate", "restitution", "normal_speed_out", "tangential_speed_out", "spin_out", "angle_out_deg", "impulse_ratio", "tangential_restitution", "contact", ...LISTS.energy.map((e) => `energy_${e}`), "validity"];
+  const head = [runningHead(s.over), "fate", "restitution", "normal_speed_out (m/s)", "tangential_speed_out (m/s)", "spin_out (rad/s)", "angle_out_deg", "impulse_ratio", "tangential_restitution", "contact", ...LISTS.energy.map((e) => `energy_${e}`), "validity"];
   const words = (r) => Array.from(r, (v, i) => {
     if (i === ROW.fate) return v ? "rebound" : "capture";
     if (i === ROW.contact) return ["none", "sliding", "rolling", "micro-slip"][v];
@@ -62,14 +71,34 @@ function slowCsv(id) {
   const { map, moments } = SHOWN;
   if (id === "history") {
     const rows = Array.from({ length: (moments?.length ?? 0) / 6 }, (_, i) => moments.slice(6 * i, 6 * i + 6).join(","));
-    return ["time,overlap,speed,hertz_force,net_force,slip", ...rows].join("\n");
+    return ["time (s),overlap (m),speed (m/s),hertz_force (N),net_force (N),slip (m/s)", ...rows].join("\n");
   }
   const at = (n, [a, b]) => Array.from({ length: n }, (_, i) => (i === 0 ? a : i === n - 1 ? b : a * (b / a) ** (i / (n - 1))));
   const rows = map ? at(map.rows, map.diameters).flatMap((d, j) => at(map.columns, map.speeds).map((v, i) => {
     const k = 2 * (j * map.columns + i);
     return [d, v, REGIONS[map.cells[k]][0], LISTS.validity.filter((c) => map.cells[k + 1] & c.bit).map((c) => c.code).join(" ")].join(",");
   })) : [];
-  return ["diameter,speed,region,validity", ...rows].join("\n");
+  return ["diameter (m),speed (m/s),region,validity", ...rows].join("\n");
+}
+
+/** The spread of a wall that scatters, as the command's columns. */
+function spreadCsv() {
+  const { s, spread } = SHOWN;
+  const head = [runningHead(s.over), "sticking_probability", ...["restitution", "tangential_restitution", "impulse_ratio"].flatMap((q) => ["median", "p05", "p95"].map((end) => `${q}_${end}`))];
+  const rows = Array.from({ length: spread.length / SPREAD.columns }, (_, i) => spread.slice(i * SPREAD.columns, (i + 1) * SPREAD.columns).join(","));
+  return [head.join(","), ...rows].join("\n");
+}
+
+/** What a unit in a column's head, as in "speed (cm/s)", makes of its numbers; 1 without a unit. */
+function unitOf(head) {
+  const unit = /\(\s*([^)]*?)\s*\)$/.exec(head)?.[1];
+  if (!unit || (state.over === "angle" && /^(°|deg|degrees)$/i.test(unit))) return 1;
+  try {
+    return KERNEL.quantity(state.over, `1 ${unit}`);
+  } catch (e) {
+    if (e instanceof Refused) e.message = `the column '${head}': ${e.message}`;
+    throw e;
+  }
 }
 
 /** Points of a CSV file with a head of names, as `carom fit` reads them: what runs, the quantity, and sigma. */
@@ -77,19 +106,20 @@ function readPoints(text) {
   const lines = text.split(/\r?\n/).filter((l) => l.trim() && !l.startsWith("#"));
   if (lines.length < 2) throw new Refused("a line of names and a line for each point are wanted, such as: speed,restitution");
   const split = (l) => l.split(/[,;\t]/).map((c) => c.trim().replace(/^"|"$/g, ""));
-  const names = split(lines[0]).map((n) => n.toLowerCase().replace(/\s*\(.*\)$/, "").replace(/[ -]/g, "_"));
+  const heads = split(lines[0]), names = heads.map((n) => n.toLowerCase().replace(/\s*\(.*\)$/, "").replace(/[ -]/g, "_"));
   const column = (...any) => names.findIndex((n) => any.includes(n));
   const overs = { speed: ["speed", "v", "velocity"], diameter: ["diameter", "d"], angle: ["angle", "angle_deg"] };
-  const x = column(...overs[state.over]);
+  const x = column(...(overs[state.over] ?? [state.over]));
   const quantity = names.includes(state.quantity) ? state.quantity : Object.keys(QUANTITIES).find((q) => names.includes(q)) ?? (names.includes("e") ? "restitution" : null);
   const y = quantity === null ? -1 : column(quantity, ...(quantity === "restitution" ? ["e"] : []));
   if (x < 0 || y < 0) throw new Refused(`columns ${state.over} and ${state.quantity} are wanted; the file has ${names.join(", ")}`);
   const s = column("sigma", "uncertainty");
+  const factor = unitOf(heads[x]);
   const points = lines.slice(1).map((l, i) => {
     const cells = split(l), number = (c) => (cells[c] === undefined || cells[c] === "" ? NaN : Number(cells[c]));
     const [px, py, ps] = [number(x), number(y), s < 0 ? NaN : number(s)];
     if (!Number.isFinite(px) || !Number.isFinite(py)) throw new Refused(`line ${i + 2} of the points: '${l.slice(0, 40)}' has no number where one is wanted`);
-    return [px, py, Number.isFinite(ps) ? ps : null];
+    return [px * factor, py, Number.isFinite(ps) ? ps : null];
   });
   if (points.length > 2000) throw new Refused(`${points.length} points: 2000 at most`);
   return { points, quantity };
@@ -124,7 +154,9 @@ function listen() {
     changed();
   });
   by("over").addEventListener("change", (e) => {
-    Object.assign(state, { over: e.target.value, range: [...RANGES[e.target.value]], points: [], kept: state.preset ? [] : state.kept, preset: "" });
+    const other = ONE_OF[e.target.value];
+    if (other && state.law[other]) delete state.law[other];
+    Object.assign(state, { over: e.target.value, range: [...rangeOf(e.target.value)], points: [], kept: state.preset ? [] : state.kept, preset: "" });
     changed();
   });
   by("quantity").addEventListener("change", (e) => { Object.assign(state, { quantity: e.target.value, points: [], preset: "" }); changed(); });
@@ -157,7 +189,8 @@ function listen() {
   });
   document.querySelectorAll("[data-save]").forEach((n) => n.addEventListener("click", () => {
     const [id, kind] = n.dataset.save.split(".");
-    if (kind === "csv") save(`carom-${id}.csv`, "text/csv", `${["map", "history"].includes(id) ? slowCsv(id) : csvOf(id)}\n`);
+    const tables = { map: slowCsv, history: slowCsv, spread: spreadCsv };
+    if (kind === "csv") save(`carom-${id}.csv`, "text/csv", `${(tables[id] ?? csvOf)(id)}\n`);
     else if (standalone(id)) save(`carom-${id}.svg`, "image/svg+xml", standalone(id));
   }));
   by("theme").addEventListener("click", () => {

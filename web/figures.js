@@ -2,6 +2,7 @@
 "use strict";
 
 const POINTS = 200; // as the command
+const SPREAD = { points: 60, samples: 400, columns: 11, color: "#E69F00", stick: "#D55E00" };
 const ENERGY = { kept: "#56B4E9", adhesion: "#D55E00", adhesion_damping: "#E69F00", hertz_damping: "#F0E442", plastic: "#CC79A7", other: "#999999", friction: "#009E73", captured: "#555555" };
 const ENERGY_WORDS = { kept: "kept", adhesion: "adhesion", adhesion_damping: "adhesion damping", hertz_damping: "Hertz damping", plastic: "plastic", other: "given by the table", friction: "friction", captured: "left at capture" };
 const REGIONS = [["capture", "#D55E00"], ["rebound", "#56B4E9"], ["rebound with yield", "#CC79A7"]];
@@ -12,14 +13,19 @@ const codeBit = (code) => LISTS.validity.find((v) => v.code === code).bit;
 function axisOf(over, from, to) {
   if (over === "angle") return { from, to, log: false, label: "angle of incidence from the surface, °" };
   if (over === "speed") return { from, to, log: true, label: "speed, m/s" };
+  const key = LISTS.keys.find((k) => k.name === over);
+  if (key) return { from, to, log: from > 0, label: `${label(over)}${key.unit ? `, ${key.unit}` : ""}` };
   const middle = Math.sqrt(from * to);
   const [unit, factor] = middle < 5e-7 ? ["nm", 1e9] : middle < 1e-3 ? ["µm", 1e6] : ["mm", 1e3];
   return { from, to, log: true, factor, label: `diameter, ${unit}` };
 }
 
+/** Equal steps, as the command takes them: an angle, and what has no ratio. */
+const isLinear = (over, from) => over === "angle" || from <= 0;
+
 /** The rows of a law along the axis: the command's points, and a few more above capture, where the curve is steep, for the eye. */
 function rowsOf(slot, s, m, [from, to]) {
-  const linear = s.over === "angle";
+  const linear = isLinear(s.over, from);
   const rows = KERNEL.sweep(slot, s.over, POINTS, from, to, linear, m);
   let drawn = rows;
   if (s.over === "speed") {
@@ -50,6 +56,15 @@ const sized = (id) => {
   const width = Math.max(300, Math.min(760, node.clientWidth || 600));
   return { width, height: Math.round(Math.max(240, width * 0.52)) };
 };
+
+/** The band of a wall that scatters, its median and, beside restitution, the probability of sticking. */
+function spreadIn({ s, spread }, sx, sy) {
+  const column = 2 + 3 * Object.keys(QUANTITIES).indexOf(s.quantity);
+  const at = (c) => Array.from({ length: spread.length / SPREAD.columns }, (_, i) => [spread[i * SPREAD.columns], spread[i * SPREAD.columns + c]]);
+  const parts = [area(at(column + 1), at(column + 2), sx, sy, SPREAD.color, ' opacity="0.22"'), line(at(column), sx, sy, SPREAD.color, DASHES[1], 1.8)];
+  if (s.quantity === "restitution") parts.push(line(at(1), sx, sy, SPREAD.stick, DASHES[2], 1.8));
+  return parts;
+}
 
 /** Curve of the law, those kept, points, warnings in the picture. */
 function drawCurves(shown) {
@@ -82,13 +97,14 @@ function drawCurves(shown) {
       parts.push(line(points(k.low), sx, sy, color, k.dashed ? DASHES[1] : k.high ? "" : DASHES[(i + 1) % 4], 1.6));
       if (k.high) parts.push(line(points(k.high), sx, sy, color, "", 1.6));
     });
+    if (shown.spread) parts.push(...spreadIn(shown, sx, sy));
     parts.push(line(own.drawn.map((r) => [r[0], value(r)]), sx, sy, main, "", 2.6));
     if (s.over === "speed") {
       const along = Math.sin((m.angle * Math.PI) / 180);
       parts.push(mark(figures.capture / along, "capture", sx, box, 1));
       if (figures.yield > 0) parts.push(mark(figures.yield / along, "yield", sx, box, 0));
     }
-    const here = m[s.over], one = shown.row[ROW[s.quantity]];
+    const here = shown.here, one = shown.row[ROW[s.quantity]];
     if (here >= from && here <= to && Number.isFinite(one)) parts.push(`<circle cx="${sx(here).toFixed(1)}" cy="${sy(one).toFixed(1)}" r="5" fill="${main}" class="here"/>`);
     parts.push(limits(stated, sx, sy), dots(s.points, sx, sy, "var(--ink)"), ...told);
     return parts.join("");
@@ -97,6 +113,10 @@ function drawCurves(shown) {
   const [first] = preset?.curves ?? [];
   const same = first && !first.to && JSON.stringify(first.law) === JSON.stringify(s.law) && first.diameter === s.motion.diameter;
   const entries = [{ label: same ? `this law: ${first.label}` : "this law", color: main }];
+  if (shown.spread) {
+    entries.push({ label: `the wall scatters: median of ${SPREAD.samples} spheres, and from 5 to 95 % of those that rebound or stay`, color: SPREAD.color, dash: DASHES[1] });
+    if (s.quantity === "restitution") entries.push({ label: "probability of sticking", color: SPREAD.stick, dash: DASHES[2] });
+  }
   kept.forEach((k, i) => entries.push({ label: k.label, color: COLORS[(i + 1) % COLORS.length], dash: k.dashed ? DASHES[1] : k.high ? "" : DASHES[(i + 1) % 4] }));
   if (stated.length) entries.push({ label: `limits that the source states: ${stated.map(([x, y, side]) => `${side} ${y} at ${x}`).join(", ")}`, kind: "limit" });
   if (s.points.length) entries.push({ label: shown.pointsFrom, color: "var(--ink)", kind: "dot" });

@@ -91,7 +91,6 @@ function showForm() {
   document.getElementById("losses").hidden = named;
   set("law-tangential", state.law.tangential ?? "");
   set("preset", state.preset);
-  set("over", state.over);
   set("quantity", state.quantity);
   set("range-from", state.range[0]);
   set("range-to", state.range[1]);
@@ -110,6 +109,12 @@ function showForm() {
   } catch (e) {
     if (!(e instanceof Refused)) throw e;
   }
+  const runs = LISTS.keys.map((k) => k.name).filter((k) => canRun(k) && (k === state.over || reads === null || reads.has(k)));
+  const options = (names) => names.map((n) => `<option value="${n}">${label(n)}</option>`).join("");
+  const over = document.getElementById("over"), choices = `<optgroup label="impact">${options(OVERS)}</optgroup><optgroup label="law">${options(runs)}</optgroup>`;
+  // not while it is open and nothing has changed
+  if (over.dataset.choices !== choices) { over.innerHTML = choices; over.dataset.choices = choices; }
+  set("over", state.over);
   document.querySelectorAll("#fields-law .field, #fields-more .field").forEach((node) => {
     const { key } = node.querySelector("[data-key]").dataset;
     node.hidden = reads !== null && !reads.has(key);

@@ -44,9 +44,23 @@ class Kernel {
     return new Set(JSON.parse(this.said()));
   }
 
+  /** A value of the motion as written, or of a law's key. */
   quantity(kind, text) {
-    this.give(text);
-    return this.numbers(this.w.quantity(["diameter", "speed", "angle", "spin"].indexOf(kind)))[0];
+    const place = ["diameter", "speed", "angle", "spin"].indexOf(kind);
+    const number = place < 0 ? 4 + this.key(kind) : place; // before the text is given: the list of keys is a text too
+    this.give(place < 0 ? `${kind} = ${tomlValue(kind, text)}\n` : text);
+    return this.numbers(this.w.quantity(number))[0];
+  }
+
+  key(name) {
+    this.keys ??= this.lists().keys.map((k) => k.name);
+    return this.keys.indexOf(name);
+  }
+
+  /** The number of what runs. */
+  runs(over) {
+    const place = ["speed", "diameter", "angle"].indexOf(over);
+    return place < 0 ? 3 + this.key(over) : place;
   }
 
   /** Normal and tangential speed. */
@@ -61,9 +75,17 @@ class Kernel {
 
   /** Rows along what runs; `m` is the motion in numbers. */
   sweep(slot, over, count, from, to, linear, m) {
-    const what = ["speed", "diameter", "angle"].indexOf(over);
-    const flat = this.numbers(this.w.sweep(slot, what, count, from, to, linear ? 1 : 0, m.diameter, m.speed, m.angle, m.spin));
+    const flat = this.numbers(this.w.sweep(slot, this.runs(over), count, from, to, linear ? 1 : 0, m.diameter, m.speed, m.angle, m.spin));
     return Array.from({ length: flat.length / COLUMNS }, (_, i) => flat.subarray(i * COLUMNS, (i + 1) * COLUMNS));
+  }
+
+  scatters(slot) {
+    return this.w.scatters(slot) === 1;
+  }
+
+  /** Rows of 11 numbers: value, probability of sticking, median, 5 % and 95 % of the three quantities. */
+  spread(slot, over, count, from, to, linear, m, samples) {
+    return this.numbers(this.w.spread(slot, this.runs(over), count, from, to, linear ? 1 : 0, m.diameter, m.speed, m.angle, m.spin, samples));
   }
 
   figures(slot, m) {
@@ -86,6 +108,7 @@ function slowly(kernel, job) {
   try {
     kernel.law(15, job.law, job.oblique);
     if (job.what === "map") return { cells: kernel.map(15, job.columns, job.rows, job.speeds, job.diameters, job.m) };
+    if (job.what === "spread") return { spread: kernel.spread(15, job.over, job.count, ...job.span, job.linear, job.m, job.samples) };
     return { moments: kernel.history(15, job.m) };
   } catch (e) {
     if (!(e instanceof Refused)) throw e;

@@ -12,6 +12,11 @@ const START = {
   preset: "",
 };
 const RANGES = { speed: ["0.05", "50"], diameter: ["1um", "1mm"], angle: ["5", "90"] };
+const OVERS = ["speed", "diameter", "angle"];
+/** Whether it can run along the axis: the motion's, and the law's numbers that have a slider and are no result as well. */
+const canRun = (name) => OVERS.includes(name) || (name in SLIDERS && !(name in QUANTITIES) && LISTS.keys.some((k) => k.name === name));
+/** Where an axis begins and ends until someone says otherwise. */
+const rangeOf = (over) => RANGES[over] ?? [written(over, 0, ""), written(over, STEPS, "")];
 const QUANTITIES = { restitution: "restitution e", tangential_restitution: "tangential restitution eₜ", impulse_ratio: "impulse ratio μ" };
 const MOST_CURVES = 12;
 
@@ -111,9 +116,9 @@ function fromHash(hash) {
   const known = new Set(LISTS.keys.map((k) => k.name));
   p.forEach((value, name) => { if (known.has(name)) s.law[name] = value; });
   Object.keys(s.motion).forEach((k) => p.has(k) && (s.motion[k] = p.get(k)));
-  if (RANGES[p.get("over")]) s.over = p.get("over");
+  if (canRun(p.get("over"))) s.over = p.get("over");
   const range = (p.get("range") || "").split("..");
-  s.range = range.length === 2 ? range : [...RANGES[s.over]];
+  s.range = range.length === 2 ? range : [...rangeOf(s.over)];
   if (QUANTITIES[p.get("quantity")]) s.quantity = p.get("quantity");
   s.preset = PRESETS.some((q) => q.id === p.get("preset")) ? p.get("preset") : "";
   try {

@@ -17,6 +17,15 @@ import units
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
+# cases that run within seconds: what they come to is printed below the page that is about them
+COMPUTED = {
+    "docs/examples/wind-tunnel.md": "examples/wind-tunnel.toml",
+    "docs/examples/two-walls.md": "examples/two-walls.toml",
+    "docs/examples/diffusion-in-a-pipe.md": "examples/settling-plates.toml",
+    "docs/examples/pipe-deposition.md": "examples/pipe.toml",
+    "docs/examples/sampling-line.md": "examples/sampling-line.toml",
+}
+
 # where each file of the repository stands in the manual, by chapter
 CHAPTERS = {
     "Getting started": {
@@ -145,7 +154,21 @@ class Stage:
         parts = re.split(r"(^[ \t]*```.*?^[ \t]*```[ \t]*$)", source.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
         for index in range(0, len(parts), 2):
             parts[index] = LINK.sub(lambda m: self.link(source, page, m[1], m[2]) if m[1] else m[0], parts[index])
-        self.write(page, "".join(parts))
+        self.write(page, "".join(parts) + self.ending(file))
+
+    def ending(self, file: str) -> str:
+        """Below a page with numbers that no program printed today: when they were last written, and what its case comes to now."""
+        if not (file.startswith("docs/examples/") or file == "docs/benchmarks.md"):
+            return ""
+        text = ""
+        if file in COMPUTED:
+            case = COMPUTED[file]
+            text += f"\n\n## Computed when this manual was built\n\n```text\n$ carom run {case}\n{self.says('run', case).rstrip()}\n```\n"
+        git = subprocess.run(["git", "log", "-1", "--format=%cs", "--", file], capture_output=True, text=True, cwd=ROOT)
+        date = f", last on {git.stdout.strip()}" if git.returncode == 0 and git.stdout.strip() else ""
+        what = "measured, on the machine that is named with them" if file == "docs/benchmarks.md" else "computed or measured, by the commands that are named with them"
+        which = "other numbers" if file in COMPUTED else "numbers"
+        return f"{text}\n\n*The {which} of this page were {what}, when it was written{date}, not when this manual was built.*\n"
 
     def index(self) -> None:
         text = [
@@ -160,7 +183,8 @@ class Stage:
             "**Where the numbers come from.** Flags, materials, units, the comparison with experiments and the explorer were computed or printed when this copy was"
             " built. Keys of laws and losses are written from their registry, and a test holds them. Command lines with their output, on"
             " the tour and the pages about laws, fits, exports and CFD results, are run by tests. Columns, keys of case files and what the equations name are"
-            " checked while the manual is built. Benchmarks and studies were measured once, as their pages say.", "",
+            " checked while the manual is built. Studies whose case runs within seconds end with what it came to now;"
+            " their other numbers, and benchmarks, were measured when their pages were written, with the date at their end.", "",
         ]
         self.write("index", "\n".join(text))
         images = self.folder / "images"

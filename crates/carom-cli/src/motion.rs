@@ -4,8 +4,9 @@ use crate::failure::Failure;
 use crate::law::{Law, LawArgs};
 use crate::text::scaled;
 use crate::values;
+use carom::ImpactError;
+pub use carom::plane::{Met, Motion};
 use carom::study::{Distribution, Given};
-use carom::{Fate, Impact, ImpactError, Outcome, WallLaw};
 
 /// The flags of an impact: a wall law and a motion.
 #[derive(clap::Args, Clone, Debug, Default)]
@@ -31,19 +32,6 @@ pub struct MotionArgs {
     /// Spin before the impact, rad/s; positive rolls forward along the tangential velocity [default: 0]
     #[arg(long, value_name = "SPIN", help_heading = "Impact", value_parser = values::spin)]
     pub spin: Option<f64>,
-}
-
-/// A motion in numbers.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Motion {
-    /// Diameter, m.
-    pub diameter: f64,
-    /// Speed, m/s.
-    pub speed: f64,
-    /// Angle from the surface, degrees.
-    pub angle: f64,
-    /// Spin, rad/s.
-    pub spin: f64,
 }
 
 impl MotionArgs {
@@ -82,61 +70,6 @@ impl MotionArgs {
     /// Does friction act: is there a tangential speed or a spin?
     pub fn is_oblique(&self) -> bool {
         self.angle.is_some_and(|a| a != 90.0) || self.spin.is_some_and(|s| s != 0.0)
-    }
-}
-
-impl Motion {
-    /// Normal and tangential speed, m/s.
-    pub fn components(&self) -> (f64, f64) {
-        carom::impact::components(self.speed, self.angle)
-    }
-
-    /// The impact, on a wall at y = 0 with the sphere above it moving along +x.
-    pub fn meet(&self, wall: &WallLaw) -> Result<Met, ImpactError> {
-        self.meet_drawn(wall, [0.5; 4])
-    }
-
-    /// Likewise, with the draws of a wall that scatters.
-    pub fn meet_drawn(&self, wall: &WallLaw, draws: [f64; 4]) -> Result<Met, ImpactError> {
-        let impact = Impact { draws, ..Impact::in_plane(self.diameter, self.speed, self.angle, self.spin) };
-        Ok(Met::from(wall.impact(&impact)?))
-    }
-}
-
-/// An outcome in the plane of the impact.
-pub struct Met {
-    /// The core's answer.
-    pub outcome: Outcome,
-    /// Normal speed after, m/s, 0 for a capture.
-    pub normal: f64,
-    /// Tangential speed after, m/s, negative when it goes back.
-    pub tangential: f64,
-    /// Spin after, rad/s.
-    pub spin: f64,
-}
-
-impl From<Outcome> for Met {
-    fn from(outcome: Outcome) -> Self {
-        // without the signs of zeros, which say nothing here
-        let [tangential, normal] = [outcome.velocity[0] + 0.0, outcome.velocity[1] + 0.0];
-        Self { outcome, normal, tangential, spin: 0.0 - outcome.spin[2] }
-    }
-}
-
-impl Met {
-    /// Did it rebound?
-    pub fn rebounds(&self) -> bool {
-        self.outcome.fate == Fate::Rebound
-    }
-
-    /// Speed after, m/s.
-    pub fn speed(&self) -> f64 {
-        self.normal.hypot(self.tangential).hypot(self.outcome.velocity[2])
-    }
-
-    /// Angle after from the surface, degrees, beyond 90 when it goes back, as seen from the side; NaN for a capture.
-    pub fn angle(&self) -> f64 {
-        if self.rebounds() { self.normal.atan2(self.tangential).to_degrees() } else { f64::NAN }
     }
 }
 

@@ -4,6 +4,7 @@ use crate::law::Law;
 use crate::materials::html;
 use crate::met::{self, Met};
 use crate::spheres::Spheres;
+use carom::plane;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use std::sync::Arc;
@@ -79,14 +80,11 @@ impl Outcome {
     }
     #[getter]
     fn speed(&self) -> f64 {
-        self.met.as_ref().map_or(f64::NAN, |o| o.velocity[0].hypot(o.velocity[1]).hypot(o.velocity[2]))
+        self.met.as_ref().map_or(f64::NAN, |o| plane::Met::from(*o).speed())
     }
     #[getter]
     fn angle(&self) -> f64 {
-        match &self.met {
-            Ok(out) if out.fate == carom::Fate::Rebound => out.velocity[1].atan2(out.velocity[0]).to_degrees(),
-            _ => f64::NAN,
-        }
+        self.met.as_ref().map_or(f64::NAN, |o| plane::Met::from(*o).angle())
     }
     #[getter]
     fn energy<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {

@@ -2,11 +2,11 @@
 
 use crate::columns::{Held, shape};
 use crate::law::WallLaw;
-use crate::met::as_row;
 use crate::numbers::{Input, What, numpy, whole};
 use crate::spheres::Spheres;
 use crate::{keys, words};
 use carom::ImpactError;
+use carom::plane::Met;
 use carom::spec::{Key, LawSpec};
 use carom::study::{Band, Distribution, Sampling, Share, read_distribution, sampled};
 use numpy::PyArray1;
@@ -136,11 +136,10 @@ pub fn sticking<'py>(
                 let draws = scatters.then(|| sampling.impact(sample));
                 let one = Spheres { diameter, motion: [speed, angle], by_angle: true, spin, density: None, draws };
                 let out = wall.impact(&one.impact()).map_err(Failed::Impact)?;
-                let [normal, tangential, ..] = as_row(&out);
-                let rebounds = out.fate == carom::Fate::Rebound;
-                let angle = if rebounds { normal.atan2(tangential).to_degrees() } else { f64::NAN };
-                let speed = normal.hypot(tangential).hypot(out.velocity[2]);
-                Ok((!rebounds, [out.restitution, speed, out.impulse_ratio, out.tangential_restitution, angle]))
+                let met = Met::from(out);
+                let figures =
+                    [out.restitution, met.speed(), out.impulse_ratio, out.tangential_restitution, met.angle()];
+                Ok((!met.rebounds(), figures))
             },
         )
     });

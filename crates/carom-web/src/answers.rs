@@ -3,12 +3,14 @@
 use crate::words::{self, Fields};
 use carom::impact::components;
 use carom::material::Library;
-use carom::math;
 use carom::normal::{NormalLaw, Size};
+use carom::plane::{Met, Motion};
 use carom::resolved::Scales;
 use carom::spec::{Key, LawSpec, parse_law};
+use carom::study::{Sampling, sampled};
 use carom::tangential::{Contact, Tangential};
 use carom::{Fate, Impact, ImpactError, Outcome, Validity, WallLaw};
+use std::borrow::Cow;
 
 /// Numbers of a row: the swept value, fate (1 rebound, 0 capture), restitution, normal and tangential speed out, spin out, angle out
 /// (degrees), impulse ratio, tangential restitution, contact (0 none, 1 sliding, 2 rolling, 3 micro-slip), the eight shares of energy
@@ -24,19 +26,7 @@ pub struct Slot {
     /// The compiled law.
     pub wall: WallLaw,
     spec: LawSpec,
-}
-
-/// How the sphere comes: m, m/s, degrees from the surface, rad/s.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Motion {
-    /// Diameter, m.
-    pub diameter: f64,
-    /// Speed, m/s.
-    pub speed: f64,
-    /// Angle from the surface, degrees.
-    pub angle: f64,
-    /// Spin, rad/s, positive when it rolls forward.
-    pub spin: f64,
+    oblique: bool,
 }
 
 /// What runs along a curve.
@@ -48,17 +38,25 @@ pub enum Swept {
     Diameter,
     /// degrees
     Angle,
+    /// A number of the law, in SI units.
+    Key(Key),
 }
 
 impl Swept {
+    /// 0 the speed, 1 the diameter, 2 the angle, from 3 on the law's keys in their order.
     pub(crate) fn of(number: u32) -> Option<Self> {
-        [Self::Speed, Self::Diameter, Self::Angle].get(number as usize).copied()
+        let number = number as usize;
+        let keys = || Key::ALL.get(number - 3).map(|key| Self::Key(*key));
+        [Self::Speed, Self::Diameter, Self::Angle].get(number).copied().or_else(keys)
     }
-}
 
-impl Motion {
-    fn impact(&self) -> Impact {
-        Impact::in_plane(self.diameter, self.speed, self.angle, self.spin)
+    fn at(self, value: f64, motion: &Motion) -> Motion {
+        match self {
+            Self::Speed => Motion { speed: value, ..*motion },
+            Self::Diameter => Motion { diameter: value, ..*motion },
+            Self::Angle => Motion { angle: value, ..*motion },
+            Self::Key(_) => *motion,
+        }
     }
 }
 
@@ -81,17 +79,30 @@ impl Slot {
     /// # Errors
     /// What is wrong, in the words of the page.
     pub fn read(text: &str, oblique: bool) -> Result<Self, String> {
+        let spec = parse_law(text).map_err(|e| e.said_in(&Fields))?;
+        Self::compile(spec, oblique)
+    }
+
+    fn compile(spec: LawSpec, oblique: bool) -> Result<Self, String> {
         let said = |e: carom::LawError| e.said_in(&Fields);
-        let spec = parse_law(text).map_err(said)?;
         let wall = spec.compile(Library::builtin()).map_err(said)?;
         if oblique {
             wall.require_friction().map_err(said)?;
         }
-        Ok(Self { wall, spec })
+        Ok(Self { wall, spec, oblique })
     }
 
-    fn meet(&self, motion: &Motion) -> Result<Outcome, String> {
-        self.wall.impact(&motion.impact()).map_err(|e| words::refused(e, motion))
+    /// The law with another value of a key.
+    fn with(&self, key: Key, value: f64) -> Result<Self, String> {
+        let mut spec = self.spec.clone();
+        if !spec.set_number(key, value) {
+            return Err(format!("the field '{}' is no number that could run", key.name().replace('_', " ")));
+        }
+        Self::compile(spec, self.oblique)
+    }
+
+    fn meet(&self, motion: &Motion) -> Result<Met, String> {
+        motion.meet(&self.wall).map_err(|e| words::refused(e, motion))
     }
 
     /// The impact of 18 numbers, see [`crate::impact`].
@@ -121,23 +132,44 @@ impl Slot {
     pub fn sweep(&self, swept: Swept, values: &[f64], motion: &Motion) -> Result<Vec<f64>, String> {
         let mut rows = Vec::with_capacity(values.len() * COLUMNS);
         for &value in values {
-            let motion = match swept {
-                Swept::Speed => Motion { speed: value, ..*motion },
-                Swept::Diameter => Motion { diameter: value, ..*motion },
-                Swept::Angle => Motion { angle: value, ..*motion },
+            let motion = swept.at(value, motion);
+            let met = match swept {
+                Swept::Key(key) => self.with(key, value)?.meet(&motion)?,
+                _ => self.meet(&motion)?,
             };
-            let out = self.meet(&motion)?;
-            // without the signs of zeros, which say nothing here
-            let [tangential, normal] = [out.velocity[0] + 0.0, out.velocity[1] + 0.0];
-            let rebounds = out.fate == Fate::Rebound;
-            let angle = if rebounds { math::atan2(normal, tangential).to_degrees() } else { f64::NAN };
-            let spin = 0.0 - out.spin[2];
-            rows.extend([value, fate(&out), out.restitution, normal, tangential, spin, angle]);
+            let out = &met.outcome;
+            rows.extend([value, fate(out), out.restitution, met.normal, met.tangential, met.spin, met.angle()]);
             rows.extend([out.impulse_ratio, out.tangential_restitution, contact(out.contact)]);
             rows.extend(out.energy.named().map(|(_, share)| share));
             rows.push(f64::from(out.validity.bits()));
         }
         Ok(rows)
+    }
+
+    /// What a wall that scatters makes of `samples` spheres at each value, as the command's `--samples` with its own seed: rows of the
+    /// value, the probability of sticking, and median, 5 % and 95 % of restitution, tangential restitution, impulse ratio.
+    ///
+    /// # Errors
+    /// A law that does not scatter, a key that runs, or no impact.
+    pub fn spread(&self, swept: Swept, values: &[f64], motion: &Motion, samples: u32) -> Result<Vec<f64>, String> {
+        if self.wall.scatter().is_none() || matches!(swept, Swept::Key(_)) {
+            return Err(
+                "spreads are those of a law with a roughness angle, along a speed, a diameter or an angle".to_owned()
+            );
+        }
+        let sampling = Sampling { samples, seed: 1 };
+        let law = |_| Ok::<_, String>(Cow::Borrowed(&self.wall));
+        let found = sampled(&sampling, values.len(), law, |wall, sample, point| {
+            let motion = swept.at(values[point], motion);
+            let met = motion.meet_drawn(wall, sampling.impact(sample)).map_err(|e| words::refused(e, &motion))?;
+            let out = &met.outcome;
+            Ok((!met.rebounds(), [out.restitution, out.tangential_restitution, out.impulse_ratio]))
+        })?;
+        let row = |(n, value): (usize, &f64)| {
+            let bands = found.bands.iter().flat_map(move |b| [b[n].median, b[n].low, b[n].high]);
+            [*value, found.sticking[n].value].into_iter().chain(bands)
+        };
+        Ok(values.iter().enumerate().flat_map(row).collect())
     }
 
     /// Region and bits of validity for each speed, diameter by diameter.
@@ -150,7 +182,7 @@ impl Slot {
             let own = self.wall.yield_velocity(diameter, None).ok().flatten();
             for &speed in speeds {
                 let motion = Motion { diameter, speed, angle, spin };
-                let out = self.meet(&motion)?;
+                let out = self.meet(&motion)?.outcome;
                 let yields = || {
                     own.is_some_and(|v| components(speed, angle).0 > v) || out.validity.contains(Validity::ABOVE_YIELD)
                 };
@@ -224,7 +256,7 @@ impl Slot {
 
     /// The warnings of an impact, as a list in JSON of code and words.
     pub(crate) fn warnings(&self, motion: &Motion) -> Result<String, String> {
-        let out = self.meet(motion)?;
+        let out = self.meet(motion)?.outcome;
         let normal = components(motion.speed, motion.angle).0;
         let numbers = self.wall.above_yield(normal, motion.diameter, None).ok().flatten();
         Ok(words::warnings(out.validity, numbers.as_ref()))
@@ -252,6 +284,32 @@ mod tests {
         assert_eq!([row[2], row[3], row[4], row[5]], [out.restitution, out.velocity[1], out.velocity[0], -out.spin[2]]);
         let shares: f64 = row[10..18].iter().sum();
         assert!((shares - 1.0).abs() < 1e-12, "{shares}");
+    }
+
+    #[test]
+    fn a_key_runs_as_if_it_were_written() {
+        let rows = law("normal = \"ea\"").sweep(Swept::Key(Key::RoughnessFactor), &[0.3, 0.9], &MOTION).expect("rows");
+        let written = |c: f64| {
+            let text = STEEL.replace("0.15", &c.to_string()) + "normal = \"ea\"\n";
+            Slot::read(&text, true).and_then(|s| s.meet(&MOTION)).expect("it approaches").outcome.restitution
+        };
+        assert_eq!([rows[2], rows[COLUMNS + 2]], [written(0.3), written(0.9)]);
+        assert!(rows[2] > rows[COLUMNS + 2], "less contact, less adhesion");
+        let refused = law("normal = \"ea\"").sweep(Swept::Key(Key::YieldVelocity), &[1.0], &MOTION);
+        assert!(refused.is_err_and(|e| e.contains("yield velocity")));
+    }
+
+    #[test]
+    fn a_wall_that_scatters_has_a_spread_and_a_smooth_one_has_none() {
+        assert!(law("normal = \"ea\"").spread(Swept::Speed, &[1.0], &MOTION, 10).is_err());
+        let rows = law("normal = \"ea\"\nroughness_angle = \"5 deg\"")
+            .spread(Swept::Speed, &[1.0, 5.0], &MOTION, 200)
+            .expect("rows");
+        assert_eq!(rows.len(), 2 * 11);
+        for row in rows.chunks(11) {
+            assert!((0.0..=1.0).contains(&row[1]) && row[3] <= row[2] && row[2] <= row[4], "{row:?}");
+        }
+        assert!(rows[11 + 4] > rows[11 + 3], "it spreads");
     }
 
     #[test]

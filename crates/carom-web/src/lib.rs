@@ -10,8 +10,9 @@ mod json;
 mod lists;
 mod words;
 
-pub use answers::{COLUMNS, Motion, Slot, Swept};
+pub use answers::{COLUMNS, Slot, Swept};
 
+use carom::plane::Motion;
 use carom::study::{ratios, steps};
 use std::cell::RefCell;
 
@@ -19,6 +20,7 @@ use std::cell::RefCell;
 const SLOTS: usize = 16;
 /// Rows of an answer: a page asks for hundreds.
 const MOST: usize = 1_000_000;
+const NOTHING_RUNS: &str = "what runs is a speed, a diameter, an angle or a number of the law";
 
 #[derive(Default)]
 struct Page {
@@ -137,7 +139,8 @@ pub extern "C" fn keys_read() -> u32 {
     })
 }
 
-/// The text as a quantity: 0 a diameter, 1 a speed, 2 an angle in degrees, 3 a spin. One number, SI units but for the angle.
+/// The text as a quantity: 0 a diameter, 1 a speed, 2 an angle in degrees, 3 a spin; from 4 on a key of a law, in its order, where the text
+/// is that key's line of a law file. One number, SI units but for the angle.
 #[unsafe(no_mangle)]
 pub extern "C" fn quantity(kind: u32) -> u32 {
     with(|page| {
@@ -165,7 +168,7 @@ pub extern "C" fn impact(slot: u32) -> u32 {
     })
 }
 
-/// Impacts along the speed (0), the diameter (1) or the angle (2), in equal ratios, or equal steps if `linear`: a row of
+/// Impacts along the speed (0), the diameter (1), the angle (2) or a key of the law (3 and its place in the list), in equal ratios, or equal steps if `linear`: a row of
 /// [`COLUMNS`] numbers each.
 #[unsafe(no_mangle)]
 #[allow(clippy::too_many_arguments)] // an interface of plain numbers
@@ -184,11 +187,44 @@ pub extern "C" fn sweep(
     with(|page| {
         let motion = Motion { diameter, speed, angle, spin };
         let run = |law: &Slot| {
-            let swept = Swept::of(what).ok_or("what runs is a speed, a diameter or an angle")?;
-            {
-                let along = if linear != 0 { steps } else { ratios };
-                law.sweep(swept, &along(from, to, count.clamp(2, MOST)), &motion)
-            }
+            let swept = Swept::of(what).ok_or(NOTHING_RUNS)?;
+            let along = if linear != 0 { steps } else { ratios };
+            law.sweep(swept, &along(from, to, count.clamp(2, MOST)), &motion)
+        };
+        let found = page.slot(slot).and_then(run);
+        page.answer(found)
+    })
+}
+
+/// Whether the wall scatters: 1, or 0 for a smooth one and an empty slot.
+#[unsafe(no_mangle)]
+pub extern "C" fn scatters(slot: u32) -> u32 {
+    with(|page| u32::from(page.slot(slot).is_ok_and(|law| law.wall.scatter().is_some())))
+}
+
+/// The spread that a wall makes that scatters, along the speed (0), the diameter (1) or the angle (2), of so many samples each: rows of
+/// 11 numbers, see [`Slot::spread`].
+#[unsafe(no_mangle)]
+#[allow(clippy::too_many_arguments)] // an interface of plain numbers
+pub extern "C" fn spread(
+    slot: u32,
+    what: u32,
+    count: usize,
+    from: f64,
+    to: f64,
+    linear: u32,
+    diameter: f64,
+    speed: f64,
+    angle: f64,
+    spin: f64,
+    samples: u32,
+) -> u32 {
+    with(|page| {
+        let motion = Motion { diameter, speed, angle, spin };
+        let run = |law: &Slot| {
+            let swept = Swept::of(what).ok_or(NOTHING_RUNS)?;
+            let along = if linear != 0 { steps } else { ratios };
+            law.spread(swept, &along(from, to, count.clamp(2, 1000)), &motion, samples.clamp(2, 10_000))
         };
         let found = page.slot(slot).and_then(run);
         page.answer(found)

@@ -1,10 +1,9 @@
 //! Words for who sits before the page: its fields, what is wrong with a field, what an answer warns of.
 
-use crate::answers::Motion;
 use crate::json;
 use carom::error::Wording;
+use carom::plane::{self, Motion};
 use carom::spec::{Key, parse_law};
-use carom::units::{Angle, AngularVelocity, Length, Speed, UnitError};
 use carom::validity::CODES;
 use carom::{AboveYield, ImpactError, Validity};
 
@@ -40,38 +39,20 @@ pub fn reads(text: &str) -> Result<String, String> {
     Ok(json::list(Key::ALL.iter().filter(|k| spec.reads(**k)).map(|k| json::text(k.name()))))
 }
 
-/// A diameter (0), a speed (1), an angle (2), a spin (3), read as the command reads its flags.
+/// A diameter (0), a speed (1), an angle (2), a spin (3), read as the command reads its flags; from 4 on the number of a law's key, in
+/// SI units, from its line in a law file.
 pub fn quantity(kind: u32, text: &str) -> Result<f64, String> {
-    let said = |e: UnitError| e.to_string();
-    let text = text.trim();
-    let (value, fits, right) = match kind {
-        0 => {
-            let v = text.parse::<Length>().map_err(said)?.0;
-            (
-                v,
-                (1e-10..=1.0).contains(&v),
-                "a diameter lies between 0.1 nm and 1 m, such as 90 um; a bare number is in metres",
-            )
-        }
-        1 => {
-            let v = text.parse::<Speed>().map_err(said)?.0;
-            (v, v > 0.0 && v < 1e9, "a speed lies above 0 and below 1e9 m/s")
-        }
-        2 => {
-            // by hand, so that 30deg is 30 to the last bit
-            let bare = text.trim_end_matches("deg").trim_end_matches('°').trim_end();
-            let v = match bare.parse::<f64>() {
-                Ok(v) => v,
-                Err(_) => text.parse::<Angle>().map_err(said)?.0.to_degrees(),
-            };
-            (v, v > 0.0 && v <= 90.0, "an angle is measured from the surface, above 0 and up to 90 degrees (head-on)")
-        }
+    match kind {
+        0 => plane::diameter(text.trim()),
+        1 => plane::speed(text.trim()),
+        2 => plane::angle(text.trim()),
+        3 => plane::spin(text.trim()),
         _ => {
-            let v = text.parse::<AngularVelocity>().map_err(said)?.0;
-            (v, v.abs() < 1e100, "a spin lies below 1e100 rad/s")
+            let key = *Key::ALL.get(kind as usize - 4).ok_or("there is no such key")?;
+            let law = parse_law(text).map_err(|e| e.said_in(&Fields))?;
+            law.number(key).ok_or_else(|| format!("the field '{}' wants a number", key.name().replace('_', " ")))
         }
-    };
-    if fits { Ok(value) } else { Err(format!("{text} is out of range; {right}")) }
+    }
 }
 
 /// An impact that is none, in terms of the fields.

@@ -70,6 +70,7 @@ pub mod material;
 pub mod math;
 pub mod normal;
 pub mod pair;
+pub mod plane;
 pub mod random;
 pub mod removal;
 pub mod resolved;
