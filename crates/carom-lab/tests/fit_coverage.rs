@@ -149,16 +149,28 @@ fn damped() -> Study {
 }
 
 #[test]
+#[cfg_attr(
+    debug_assertions,
+    ignore = "minutes unless optimized: cargo test --release -p carom-lab --test fit_coverage"
+)]
 fn damping_and_roughness_with_known_noise() {
     damped().covers(wald);
 }
 
 #[test]
+#[cfg_attr(
+    debug_assertions,
+    ignore = "minutes unless optimized: cargo test --release -p carom-lab --test fit_coverage"
+)]
 fn damping_and_roughness_with_unknown_noise_and_few_points() {
     Study { told: false, speeds: log_spaced(0.05, 30.0, 9), ..damped() }.covers(wald);
 }
 
 #[test]
+#[cfg_attr(
+    debug_assertions,
+    ignore = "minutes unless optimized: cargo test --release -p carom-lab --test fit_coverage"
+)]
 fn with_spheres_that_stayed_and_two_sizes() {
     // capture at 0.027 and 0.009 m/s
     let study = Study { speeds: log_spaced(0.005, 20.0, 18), diameters: vec![70e-6, 200e-6], told: false, ..damped() };
@@ -166,6 +178,10 @@ fn with_spheres_that_stayed_and_two_sizes() {
 }
 
 #[test]
+#[cfg_attr(
+    debug_assertions,
+    ignore = "minutes unless optimized: cargo test --release -p carom-lab --test fit_coverage"
+)]
 fn work_of_adhesion_and_plastic_constant() {
     let study = Study {
         law: format!("{STEEL}normal = \"eap\"\nfriction = 0\nplastic_constant = 240e6\n"),
@@ -177,6 +193,10 @@ fn work_of_adhesion_and_plastic_constant() {
 }
 
 #[test]
+#[cfg_attr(
+    debug_assertions,
+    ignore = "minutes unless optimized: cargo test --release -p carom-lab --test fit_coverage"
+)]
 fn friction_beside_roughness() {
     let study = Study {
         law: format!("{STEEL}normal = \"ea\"\nfriction = 0.15\nroughness_factor = 0.3\n"),
@@ -191,6 +211,10 @@ fn friction_beside_roughness() {
 }
 
 #[test]
+#[cfg_attr(
+    debug_assertions,
+    ignore = "minutes unless optimized: cargo test --release -p carom-lab --test fit_coverage"
+)]
 fn bootstrap_intervals() {
     let study = Study { resamples: 39, told: false, ..damped() };
     study.covers(|fit, n| fit.parameters[n].bootstrap);
