@@ -162,11 +162,11 @@ fn curves(args: &Args, over: &Over, case: &ImpactArgs) -> Result<(), Failure> {
 }
 
 fn table(grid: &Grid, figures: &[Figures]) -> Result<Table, Failure> {
-    let mut columns = grid.columns();
-    columns.push(Column::float("capture_velocity", "m/s", figures.iter().map(|f| f.capture_velocity)));
-    columns.push(Column::float("exhausted_velocity", "m/s", figures.iter().map(|f| f.exhausted_velocity)));
-    columns.push(Column::float("yield_velocity", "m/s", figures.iter().map(|f| f.yield_velocity)));
-    columns.push(Column::float("tabor_parameter", "", figures.iter().map(Figures::tabor)));
-    columns.push(Column::optional_text("regime", figures.iter().map(Figures::regime)));
-    Ok(Table::new(columns)?)
+    grid.table(vec![
+        Column::float("capture_velocity", "m/s", figures.iter().map(|f| f.capture_velocity)),
+        Column::float("exhausted_velocity", "m/s", figures.iter().map(|f| f.exhausted_velocity)),
+        Column::float("yield_velocity", "m/s", figures.iter().map(|f| f.yield_velocity)),
+        Column::float("tabor_parameter", "", figures.iter().map(Figures::tabor)),
+        Column::optional_text("regime", figures.iter().map(Figures::regime)),
+    ])
 }

@@ -217,7 +217,7 @@ impl Grid<'_> {
     }
 
     /// Columns of the curves' values and of the swept quantity, a row for each point of each curve.
-    pub fn columns(&self) -> Vec<Column> {
+    fn columns(&self) -> Vec<Column> {
         let each = |value: &dyn Fn(&Curve) -> f64| -> Vec<f64> {
             self.curves.iter().flat_map(|c| std::iter::repeat_n(value(c), self.points.len())).collect()
         };
@@ -242,6 +242,16 @@ impl Grid<'_> {
         let runs: Vec<f64> = self.curves.iter().flat_map(|_| self.points.iter().copied()).collect();
         columns.push(Column::float(name, unit, runs));
         columns
+    }
+
+    /// These columns and those of the results; a number of the law that is a result as well is `given_` by its name.
+    pub fn table(&self, results: Vec<Column>) -> Result<Table, Failure> {
+        let mut columns = self.columns();
+        for column in columns.iter_mut().filter(|c| results.iter().any(|r| r.name == c.name)) {
+            column.name.insert_str(0, "given_");
+        }
+        columns.extend(results);
+        Ok(Table::new(columns)?)
     }
 
     /// The horizontal axis.

@@ -176,28 +176,26 @@ fn doubts(met: &[Met]) -> Column {
 
 /// Every column, for files: the same whatever is swept.
 fn whole(grid: &Grid, met: &[Met]) -> Result<Table, Failure> {
-    let mut columns = grid.columns();
-    columns.extend(head_on(met));
+    let mut columns = head_on(met);
     columns.extend(sideways(met));
     let names = carom::Energy::default().named().map(|(name, _)| name);
     for (n, name) in names.into_iter().enumerate() {
         columns.push(float(&format!("energy_{name}"), "", met, |m| m.outcome.energy.named()[n].1));
     }
     columns.push(doubts(met));
-    Ok(Table::new(columns)?)
+    grid.table(columns)
 }
 
 /// The columns that say something, for the terminal.
 fn short(grid: &Grid, met: &[Met], oblique: bool) -> Result<Table, Failure> {
-    let mut columns = grid.columns();
-    columns.extend(head_on(met));
+    let mut columns = head_on(met);
     if oblique {
         columns.extend(sideways(met));
     }
     if met.iter().any(|m| !m.outcome.validity.is_empty()) {
         columns.push(doubts(met));
     }
-    Ok(Table::new(columns)?)
+    grid.table(columns)
 }
 
 fn plot(grid: &Grid, met: &[Met], laws: &[Law], shown: Shown, figure: Figure) -> Plot {
@@ -211,10 +209,8 @@ fn plot(grid: &Grid, met: &[Met], laws: &[Law], shown: Shown, figure: Figure) ->
 fn sampled(args: &Args, grid: &Grid, files: &Files, sampling: &Sampling, measured: &[Series]) -> Result<(), Failure> {
     let study = Study::new(grid, sampling)?;
     let table = |figures: &[Figure]| {
-        let mut columns = grid.columns();
-        columns.extend(study.sticking_columns());
-        columns.extend(figures.iter().flat_map(|f| study.band_columns(*f)));
-        Ok(Table::new(columns)?)
+        let bands = figures.iter().flat_map(|f| study.band_columns(*f));
+        grid.table(study.sticking_columns().into_iter().chain(bands).collect())
     };
     let oblique = grid.curves.iter().any(|c| grid.is_oblique(c));
     let told: &[Figure] = if oblique { &[Figure::Restitution, Figure::AngleOut] } else { &[Figure::Restitution] };

@@ -70,6 +70,32 @@ fn a_table_goes_to_standard_output_and_back_into_a_fit() {
 }
 
 #[test]
+fn a_number_of_the_law_that_is_a_result_too_has_a_column_of_its_own() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let law = "--sphere copper --surface silicon --diameter 90um";
+    let both = [
+        (
+            "sweep --law constant --speed 1 --angle 30 --tangential-restitution 0.5 --over restitution=0.2..0.8",
+            "restitution",
+        ),
+        (
+            "sweep --law constant --speed 1 --angle 30 --restitution 0.5 --over tangential-restitution=0.2..0.8",
+            "tangential_restitution",
+        ),
+        ("capture --law tabor --meyer-index 2.29 --over yield-velocity=0.01..0.02", "yield_velocity"),
+    ];
+    for (n, (command, name)) in both.into_iter().enumerate() {
+        let out = carom(folder.path(), &format!("{command} {law} --points 3 --out {n}.csv"));
+        assert!(out.status.success(), "{command}: {}", String::from_utf8_lossy(&out.stderr));
+        let text = std::fs::read_to_string(folder.path().join(format!("{n}.csv"))).expect("text");
+        let columns: Vec<_> = text.lines().next().expect("a header").split(',').map(|c| c.split(' ').next()).collect();
+        let given = format!("given_{name}");
+        assert_eq!(columns[0], Some(given.as_str()), "{columns:?}");
+        assert_eq!(columns.iter().filter(|c| **c == Some(name)).count(), 1, "{columns:?}");
+    }
+}
+
+#[test]
 fn plots_have_units_a_legend_and_a_log_scale() {
     let folder = tempfile::tempdir().expect("a folder");
     let out = carom(folder.path(), &format!("{SWEEP} --by law=ea,eap --plot e.svg"));

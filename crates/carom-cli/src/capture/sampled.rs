@@ -12,7 +12,7 @@ use crate::sweep;
 use crate::text::{Lines, percent, quantity, scaled};
 use carom::study::{Band, Given, Sampling};
 use carom_report::plot::Reference;
-use carom_report::{Axis, Column, Plot, Table};
+use carom_report::{Axis, Column, Plot};
 
 /// Capture velocities of the samples at some diameters.
 struct Velocities {
@@ -121,10 +121,8 @@ fn over_diameter(grid: &Grid, files: &Files, sampling: &Sampling) -> Result<(), 
         laws.push(velocities.law);
     }
     let table = || {
-        let mut columns = grid.columns();
-        columns.extend(band_columns("capture_velocity", "m/s", &bands));
-        columns.push(Column::float("never_rebounds", "", never.iter().copied()));
-        Ok(Table::new(columns)?)
+        let never = Column::float("never_rebounds", "", never.iter().copied());
+        grid.table(band_columns("capture_velocity", "m/s", &bands).into_iter().chain([never]).collect())
     };
     grid.show(files, table, table, || {
         let title = sweep::title(grid, &laws);
@@ -139,10 +137,8 @@ fn over_diameter(grid: &Grid, files: &Files, sampling: &Sampling) -> Result<(), 
 fn over_speed(grid: &Grid, files: &Files, sampling: &Sampling) -> Result<(), Failure> {
     let study = Study::new(grid, sampling)?;
     let table = || {
-        let mut columns = grid.columns();
-        columns.extend(study.sticking_columns());
-        columns.extend(study.band_columns(Figure::Restitution));
-        Ok(Table::new(columns)?)
+        let bands = study.band_columns(Figure::Restitution);
+        grid.table(study.sticking_columns().into_iter().chain(bands).collect())
     };
     let references = references(grid, sampling)?;
     grid.show(files, table, table, || {
