@@ -20,7 +20,6 @@ use std::cell::RefCell;
 const SLOTS: usize = 16;
 /// Rows of an answer: a page asks for hundreds.
 const MOST: usize = 1_000_000;
-const NOTHING_RUNS: &str = "what runs is a speed, a diameter, an angle or a number of the law";
 
 #[derive(Default)]
 struct Page {
@@ -168,8 +167,15 @@ pub extern "C" fn impact(slot: u32) -> u32 {
     })
 }
 
-/// Impacts along the speed (0), the diameter (1), the angle (2) or a key of the law (3 and its place in the list), in equal ratios, or equal steps if `linear`: a row of
-/// [`COLUMNS`] numbers each.
+/// What runs, and the values along it: in equal ratios, or equal steps if `linear`.
+fn running(what: u32, from: f64, to: f64, count: usize, linear: u32) -> Result<(Swept, Vec<f64>), &'static str> {
+    let swept = Swept::of(what).ok_or("what runs is a speed, a diameter, an angle or a number of the law")?;
+    let along = if linear != 0 { steps } else { ratios };
+    Ok((swept, along(from, to, count)))
+}
+
+/// Impacts along the speed (0), the diameter (1), the angle (2) or a key of the law (3 and its place in the list), in equal ratios, or
+/// equal steps if `linear`: a row of [`COLUMNS`] numbers each.
 #[unsafe(no_mangle)]
 #[allow(clippy::too_many_arguments)] // an interface of plain numbers
 pub extern "C" fn sweep(
@@ -187,9 +193,8 @@ pub extern "C" fn sweep(
     with(|page| {
         let motion = Motion { diameter, speed, angle, spin };
         let run = |law: &Slot| {
-            let swept = Swept::of(what).ok_or(NOTHING_RUNS)?;
-            let along = if linear != 0 { steps } else { ratios };
-            law.sweep(swept, &along(from, to, count.clamp(2, MOST)), &motion)
+            let (swept, values) = running(what, from, to, count.clamp(2, MOST), linear)?;
+            law.sweep(swept, &values, &motion)
         };
         let found = page.slot(slot).and_then(run);
         page.answer(found)
@@ -222,9 +227,8 @@ pub extern "C" fn spread(
     with(|page| {
         let motion = Motion { diameter, speed, angle, spin };
         let run = |law: &Slot| {
-            let swept = Swept::of(what).ok_or(NOTHING_RUNS)?;
-            let along = if linear != 0 { steps } else { ratios };
-            law.spread(swept, &along(from, to, count.clamp(2, 1000)), &motion, samples.clamp(2, 10_000))
+            let (swept, values) = running(what, from, to, count.clamp(2, 1000), linear)?;
+            law.spread(swept, &values, &motion, samples.clamp(2, 10_000))
         };
         let found = page.slot(slot).and_then(run);
         page.answer(found)

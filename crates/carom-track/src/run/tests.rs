@@ -71,33 +71,6 @@ fn options(out: &Path, threads: usize) -> RunOptions {
 }
 
 #[test]
-fn threads_shards_and_order_leave_no_trace() {
-    let folder = tempfile::tempdir().unwrap();
-    let at = |name: &str| folder.path().join(name);
-    let case = case();
-    let whole = run(&case, &options(&at("one"), 1), &Silent).unwrap();
-    run(&case, &options(&at("three"), 3), &Silent).unwrap();
-    assert_eq!(files(&at("one")), files(&at("three")));
-    for of in [2, 3, 7] {
-        let folders: Vec<PathBuf> = (1..=of).map(|i| at(&format!("{i}-{of}"))).collect();
-        for (i, out) in folders.iter().enumerate() {
-            let shard = Some(Shard { index: i as u64 + 1, of });
-            run(&case, &RunOptions { shard, ..options(out, 2) }, &Silent).unwrap();
-        }
-        let mut reversed = folders.clone();
-        reversed.reverse();
-        assert_eq!(merge(&reversed, &at(&format!("merged-{of}")), false).unwrap().0, whole);
-        assert_eq!(files(&at("one")), files(&at(&format!("merged-{of}"))));
-        assert!(
-            merge(&folders[1..], &at("missing"), false)
-                .unwrap_err()
-                .to_string()
-                .contains(&format!("shard 1/{of} is missing"))
-        );
-    }
-}
-
-#[test]
 fn nothing_is_lost_and_nothing_invented() {
     let folder = tempfile::tempdir().unwrap();
     let case = case();
@@ -383,6 +356,7 @@ mod folder;
 mod meshed;
 mod power;
 mod results;
+mod shards;
 
 /// Stops when so many particles have ended.
 struct StopsAt(u64, AtomicU64);

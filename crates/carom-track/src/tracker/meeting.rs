@@ -79,9 +79,7 @@ impl<D: Domain> Walk<'_, D> {
                 pressed = after.bounces && eddies && self.is_pressed_by_chance(crew, l, hit, &after);
             }
         }
-        if matches!(after.event, Event::Capture | Event::Settle)
-            && let Some(mode) = self.removes(crew, l, hit)
-        {
+        if let Some(mode) = self.removes(crew, l, hit, after.event) {
             (after.velocity, after.spin) = (hit.wall_velocity, [0.0; 3]);
             contact = self.rolls_off(crew, l, hit, &after, mode);
             // where it is followed the impact is no end, nor is a removal counted

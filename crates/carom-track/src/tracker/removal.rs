@@ -9,6 +9,7 @@ use super::crew::Crew;
 use super::meeting::{After, law_of};
 use super::{Behavior, Walk};
 use crate::domain::{Domain, Hit};
+use crate::record::Event;
 use carom::removal::{Fluid, Mode, Removal};
 
 /// What takes spheres off a wall.
@@ -23,10 +24,18 @@ pub struct Reentrainment {
 }
 
 impl<D: Domain> Walk<'_, D> {
-    /// How the flow takes off a sphere that was to stay where it hit, if it does.
-    pub(super) fn removes<const W: usize>(&self, crew: &Crew<W, D::Here>, l: usize, hit: &Hit) -> Option<Mode> {
-        let behavior = self.behaviors.get(hit.wall)?;
-        let Behavior::Removal(_, removal) = behavior else { return None };
+    /// How the flow takes off a sphere that an impact would leave where it hit, if it does.
+    pub(super) fn removes<const W: usize>(
+        &self,
+        crew: &Crew<W, D::Here>,
+        l: usize,
+        hit: &Hit,
+        event: Event,
+    ) -> Option<Mode> {
+        if !matches!(event, Event::Capture | Event::Settle) {
+            return None;
+        }
+        let Behavior::Removal(_, removal) = self.behaviors.get(hit.wall)? else { return None };
         let held = self.held(crew, l, hit)?;
         let flow = || self.domain.fluid(crew.here[l], crew.time[l], hit.meeting.position).friction_velocity;
         let speed = removal.friction_velocity.unwrap_or_else(flow);
@@ -35,6 +44,7 @@ impl<D: Domain> Walk<'_, D> {
             None => held.mode(Mode::ALL, speed),
         }
     }
+
     /// The contact motion in which it leaves, if it is to be followed and rolls.
     pub(super) fn rolls_off<'b, const W: usize>(
         &'b self,
@@ -44,9 +54,9 @@ impl<D: Domain> Walk<'_, D> {
         after: &After,
         mode: Mode,
     ) -> Option<Contact<'b, D>> {
-        let Behavior::Removal(_, removal) = self.behaviors.get(hit.wall)? else { return None };
-        let particle = &crew.lanes[l].particle;
-        let friction = law_of(self.behaviors.get(hit.wall)?, particle.injection)?.tangential().friction();
+        let behavior = self.behaviors.get(hit.wall)?;
+        let Behavior::Removal(_, removal) = behavior else { return None };
+        let friction = law_of(behavior, crew.lanes[l].particle.injection)?.tangential().friction();
         if !removal.follow || mode != Mode::Rolling || friction.is_none_or(|f| f <= 0.0) {
             return None;
         }

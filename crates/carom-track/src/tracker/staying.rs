@@ -5,7 +5,7 @@ use super::contact::{Contact, Ending, Motion};
 use super::crew::Crew;
 use super::lane::Lane;
 use super::meeting::{After, put, record};
-use super::walk::finish;
+use super::walk::{finish, lose};
 use crate::domain::{Domain, Hit};
 use crate::geometry::Meeting;
 use crate::record::{Event, ParticleFate, Sink};
@@ -127,10 +127,7 @@ impl<D: Domain> Walk<'_, D> {
                     sink.stalled();
                     return finish(crew, l, ParticleFate::Airborne, None, sink);
                 }
-                Ending::Lost(cell) => {
-                    crew.lanes[l].lost_from = cell;
-                    return finish(crew, l, ParticleFate::Stuck, None, sink);
-                }
+                Ending::Lost(cell) => return lose(crew, l, cell, sink),
                 // held in a corner: it stays there as long as it is pushed
                 Ending::Rests => {
                     crew.time[l] = until;
@@ -168,9 +165,7 @@ impl<D: Domain> Walk<'_, D> {
         let before = contact.motion;
         crew.lanes[l].impacts += 1;
         let mut after = self.outcome(crew, l, hit, before.v, before.spin);
-        if matches!(after.event, Event::Capture | Event::Settle)
-            && let Some(mode) = self.removes(crew, l, hit)
-        {
+        if let Some(mode) = self.removes(crew, l, hit, after.event) {
             after.event = Event::Remove(mode);
         }
         let stays = contact.goes_on(Motion { v: after.velocity, spin: after.spin, ..before });

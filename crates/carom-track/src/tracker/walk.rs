@@ -362,8 +362,7 @@ impl<D: Domain> Walk<'_, D> {
         }
         meeting::put(crew, l, x, v, spin);
         if self.domain.is_lost(crew.here[l]) || crew.lanes[l].round > LOST {
-            crew.lanes[l].lost_from = self.domain.cell(left);
-            return finish(crew, l, ParticleFate::Stuck, None, sink);
+            return lose(crew, l, self.domain.cell(left), sink);
         }
         let lane = &mut crew.lanes[l];
         lane.fitted = false;
@@ -425,6 +424,12 @@ impl<D: Domain> Walk<'_, D> {
 /// A step that moves the time on, s.
 pub(super) fn least_step(time: f64) -> f64 {
     (1e-14 * time.abs()).max(1e-30)
+}
+
+/// Ends a lane's particle whose place was lost beyond a cell of a mesh.
+pub(super) fn lose<const W: usize, H>(crew: &mut Crew<W, H>, l: usize, cell: Option<u32>, sink: &mut dyn Sink) {
+    crew.lanes[l].lost_from = cell;
+    finish(crew, l, ParticleFate::Stuck, None, sink);
 }
 
 /// Tells the sink how a lane's particle ended; the lane is free then.

@@ -1,5 +1,6 @@
 //! Chance is drawn by particle and step: who tracks a sphere, with whom and after which interruption, leaves no trace.
 
+use super::shards::whole_threads_and_shards;
 use super::*;
 
 /// Nanospheres of two sizes in a laminar channel, above a floor they bounce on and below a ceiling that keeps them; eddies beside the
@@ -57,19 +58,10 @@ fn threads_shards_stops_and_power_cuts_leave_no_trace_in_brownian_runs() {
         let folder = tempfile::tempdir().unwrap();
         let at = |name: &str| folder.path().join(name);
         let case = case(eddies, spheres);
-        let whole = run(&case, &options(&at("whole"), 1), &Silent).unwrap();
+        let whole = whole_threads_and_shards(&case, folder.path(), 3);
         let impacts: u64 = whole.walls.iter().map(|w| w.impacts).sum();
         let ends: u64 = whole.fates.iter().map(|f| f.count).sum();
         assert!(impacts > 5 && ends == spheres[0] + spheres[1], "{impacts} impacts, {ends} ends");
-        run(&case, &options(&at("three"), 3), &Silent).unwrap();
-        assert_eq!(files(&at("whole")), files(&at("three")));
-        let shards = [1, 2, 3].map(|index| {
-            let out = at(&format!("{index}-3"));
-            run(&case, &RunOptions { shard: Some(Shard { index, of: 3 }), ..options(&out, 2) }, &Silent).unwrap();
-            out
-        });
-        merge(&shards, &at("merged"), false).unwrap();
-        assert_eq!(files(&at("whole")), files(&at("merged")));
         let (cut, again) = (at("cut"), |threads| RunOptions { resume: true, ..options(&at("cut"), threads) });
         let often = RunOptions { checkpoint_every: Duration::ZERO, ..options(&cut, 2) };
         run_on(&case, &often, &Silent, &power::Unplugged::after(20, &cut), HELD).unwrap_err();

@@ -1,5 +1,6 @@
 //! Runs through a finished CFD result: a block of 3 × 2 × 2 cells, with a floor of six faces.
 
+use super::shards::whole_threads_and_shards;
 use super::*;
 use crate::deposit_faces;
 use crate::record::Event;
@@ -48,21 +49,13 @@ fn threads_shards_and_stops_leave_no_trace() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
     let case = meshed();
-    let whole = run(&case, &options(&at("one"), 1), &Silent).unwrap();
+    let whole = whole_threads_and_shards(&case, folder.path(), 2);
     assert_eq!(whole.fates.iter().map(|f| f.count).sum::<u64>(), 1100);
     assert!(whole.walls.iter().map(|w| w.impacts).sum::<u64>() > 1000);
-    run(&case, &options(&at("three"), 3), &Silent).unwrap();
-    assert!(files(&at("one")) == files(&at("three")));
-    let parts: Vec<PathBuf> = (1..=2).map(|index| at(&format!("part-{index}"))).collect();
-    for (index, out) in (1..).zip(&parts) {
-        run(&case, &RunOptions { shard: Some(Shard { index, of: 2 }), ..options(out, 2) }, &Silent).unwrap();
-    }
-    assert_eq!(merge(&parts, &at("merged"), false).unwrap().0, whole);
-    assert!(files(&at("one")) == files(&at("merged")));
     let stops = StopsAt(500, AtomicU64::new(0));
     run(&case, &options(&at("stopped"), 2), &stops).unwrap_err();
     run(&case, &RunOptions { resume: true, ..options(&at("stopped"), 2) }, &Silent).unwrap();
-    assert!(files(&at("one")) == files(&at("stopped")));
+    assert!(files(&at("whole")) == files(&at("stopped")));
 }
 
 /// What each face of the floor lost is the sum over the impacts of the table that lie on it.
