@@ -141,6 +141,25 @@ impl Carry {
         Self { rotation, translation: rotation.map(|row| -(row[0] * t[0] + row[1] * t[1] + row[2] * t[2])) }
     }
 
+    /// This, and then another.
+    ///
+    /// ```
+    /// use carom_cfd::Carry;
+    ///
+    /// let turn = Carry { rotation: [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]], translation: [1.0, 0.0, 0.0] };
+    /// let both = turn.then(&Carry::by([0.0, 2.0, 0.0])).then(&turn);
+    /// assert_eq!(both.point([1.0, 2.0, 3.0]), [-2.0, -1.0, 3.0]);
+    /// assert_eq!(turn.then(&turn.inverse()), Carry::by([0.0; 3]));
+    /// ```
+    #[must_use]
+    pub fn then(&self, next: &Self) -> Self {
+        let r = &self.rotation;
+        let column = |j: usize| next.vector([r[0][j], r[1][j], r[2][j]]);
+        let columns = [column(0), column(1), column(2)];
+        let rotation = [0, 1, 2].map(|i| [columns[0][i], columns[1][i], columns[2][i]]);
+        Self { rotation, translation: next.point(self.translation) }
+    }
+
     /// A vector carried over.
     #[inline]
     pub fn vector(&self, v: [f64; 3]) -> [f64; 3] {

@@ -1,8 +1,8 @@
 //! The closed box of `closed_box` between walls of other shapes: what each costs over six planes.
 //!
 //! All shapes in turn, several rounds; the least processor time of each and its ratio to the planes' are printed. `-- build` times
-//! building a mesh of a million triangles; `-- vessel N` flies spheres for N steps in closed vessels of triangles, and none may be
-//! outside at any impact or end.
+//! building a mesh of a million triangles; `-- vessel N [FIRST]` flies spheres, counted from FIRST, for N steps in closed vessels of triangles, and
+//! none may be outside at any impact or end: parts with a FIRST each run side by side.
 
 mod common;
 
@@ -145,7 +145,7 @@ impl Sink for Watch {
 }
 
 /// Flies spheres, in turn by their surfaces and by their centres, until so many steps are done.
-fn fly(wanted: f64) {
+fn fly(wanted: f64, from: u64) {
     let law = "normal = \"constant\"\nrestitution = 1\ntangential = \"constant\"\ntangential_restitution = 1\n";
     let law = carom::spec::parse_law(law).expect("a law").compile(carom::material::Library::builtin()).expect("a law");
     let behaviors = [Behavior::Law(vec![law])];
@@ -153,7 +153,7 @@ fn fly(wanted: f64) {
     let dynamics = Dynamics { forces, ..Dynamics::default() };
     let settings =
         Settings { tolerance: 1e-5, until: 5.0, settle_height: SettleHeight::DEFAULT, max_steps: 1_000_000, seed: 1 };
-    let (mut all, mut number) = (Watch::default(), 0);
+    let (mut all, mut number) = (Watch::default(), from);
     for round in 0.. {
         let contact_at = if round % 2 == 0 { ContactAt::Center } else { ContactAt::Surface };
         let shape = Shape::Mesh(Mesh::new(&vessel(2 + round % 4)).expect("triangles"));
@@ -176,8 +176,9 @@ fn fly(wanted: f64) {
         }
     }
     let Watch { steps, impacts, ends, outside } = all;
-    println!("{steps:e} steps, {impacts:e} impacts, {ends} of {number} spheres ended, {outside} times outside");
-    assert!(outside == 0 && ends == number, "spheres left a closed vessel");
+    let spheres = number - from;
+    println!("{steps:e} steps, {impacts:e} impacts, {ends} of {spheres} spheres ended, {outside} times outside");
+    assert!(outside == 0 && ends == spheres, "spheres left a closed vessel");
 }
 
 fn main() {
@@ -186,8 +187,8 @@ fn main() {
         return build();
     }
     if let Some(place) = arguments.iter().position(|a| a == "vessel") {
-        let wanted = arguments.get(place + 1).and_then(|n| n.parse().ok());
-        return fly(wanted.unwrap_or(1e7));
+        let number = |place: usize| arguments.get(place).and_then(|n| n.parse::<f64>().ok());
+        return fly(number(place + 1).unwrap_or(1e7), number(place + 2).unwrap_or(0.0) as u64);
     }
     let room = || wall(Shape::Room(Room { min: [0.0; 3], max: [SIDE; 3] }));
     let rod = Cylinder { point: [0.5; 3], axis: [0.0, 0.0, 1.0], radius: 0.01, inside: false };

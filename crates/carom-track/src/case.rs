@@ -156,7 +156,7 @@ impl Case {
         sampled_starts(&walls, &flow, &injections, &behaviors)?;
         if let Some(cells) = &cells {
             cells::inside(cells, &injections)?;
-            cells::chance(cells, &read.forces, &dynamics)?;
+            cells::chance(cells, &read.forces, gradient, &dynamics)?;
         }
         // materials come from a library that may change: what they are made of tells, and the text tells the rest
         let fingerprint =

@@ -80,6 +80,16 @@ pub trait Domain: Sync {
         f64::INFINITY
     }
 
+    /// Whether the space goes on elsewhere than where its sides are ([`Next::Carried`]).
+    fn goes_on(&self) -> bool {
+        false
+    }
+
+    /// How places are seen from elsewhere, where walls may be nearer than on this side.
+    fn shifts(&self) -> &[Carry] {
+        &[]
+    }
+
     /// What lies ahead of `W` paths (starts and control points 1 to 5 relative to them), as far as a look side by side tells.
     #[inline(always)]
     fn look<const W: usize>(

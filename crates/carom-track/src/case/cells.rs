@@ -10,6 +10,7 @@ use crate::vector::{cross, dot, norm, sub};
 use carom::LawError;
 use carom::error::did_you_mean;
 use carom::spec::At;
+use carom::units::TemperatureGradient;
 #[cfg(feature = "fluent")]
 use carom_cfd::fluent;
 use carom_cfd::{Names, Patch, PatchKind, Snapshot, openfoam, vtk};
@@ -18,7 +19,7 @@ use std::sync::Arc;
 
 /// A little more than touching: rounding makes no overlap.
 const CLEAR: f64 = 1e-6;
-/// Share of gravity across a plane of symmetry that rounding may make.
+/// Share of a vector across a plane of symmetry, or that a rotation changes, that rounding may make.
 const ACROSS: f64 = 1e-6;
 /// Cells, faces or patches named in a message.
 const NAMED: usize = 12;
@@ -252,26 +253,39 @@ pub(super) fn inside(cells: &Cells, injections: &[super::Injected]) -> Result<()
     Ok(())
 }
 
-/// What the forces ask of a mesh that it does not have.
-pub(super) fn chance(
-    cells: &Cells,
-    text: &super::text::ForcesText,
-    dynamics: &crate::dynamics::Dynamics,
-) -> Result<(), LawError> {
-    if let Some(at) = text.brownian.as_ref().filter(|_| dynamics.brownian && cells.goes_on()) {
-        return Err(wrong(at, "Brownian motion beside planes of symmetry, wedges or cyclic patches is not there yet")
-            .help("switch it off, or use a mesh of the whole body"));
-    }
-    let g = dynamics.forces.gravity;
+const WHOLE: &str = "it would act otherwise on what is carried over: use the whole body";
+
+/// Whether a vector is the same where the space goes on elsewhere; what is wrong, if it is not.
+fn alike(cells: &Cells, vector: [f64; 3]) -> Result<(), String> {
     for patch in cells.patches().iter().filter(|p| p.kind == PatchKind::Symmetry) {
         let across = |[a, b, c]: crate::geometry::Triangle| {
             let n = cross(sub(b, a), sub(c, a));
-            dot(n, g).abs() > ACROSS * norm(n) * norm(g)
+            dot(n, vector).abs() > ACROSS * norm(n) * norm(vector)
         };
-        if let Some(at) = text.gravity.as_ref().filter(|_| cells.triangles(patch).into_iter().any(across)) {
-            return Err(wrong(at, format!("gravity points across the plane of symmetry '{}'", patch.name))
-                .help("what falls on one side rises on the other: use the whole body, or give the patch a law"));
+        if cells.triangles(patch).into_iter().any(across) {
+            return Err(format!("points across the plane of symmetry '{}'", patch.name));
         }
+    }
+    let turned = |carry: carom_cfd::Carry| norm(sub(carry.vector(vector), vector)) > ACROSS * norm(vector);
+    match cells.carries().find(|(_, carry)| turned(*carry)) {
+        Some((patch, _)) => Err(format!("is not along the axis that '{patch}' goes on round")),
+        None => Ok(()),
+    }
+}
+
+/// What the forces ask of a mesh that it does not have, or that does not go with how its space goes on.
+pub(super) fn chance(
+    cells: &Cells,
+    text: &super::text::ForcesText,
+    gradient: Option<&At<[TemperatureGradient; 3]>>,
+    dynamics: &crate::dynamics::Dynamics,
+) -> Result<(), LawError> {
+    let forces = &dynamics.forces;
+    if let Some(at) = &text.gravity {
+        alike(cells, forces.gravity).map_err(|m| wrong(at, format!("gravity {m}")).help(WHOLE))?;
+    }
+    if let (Some(at), Some(thermal)) = (gradient, forces.thermophoresis) {
+        alike(cells, thermal.gradient).map_err(|m| wrong(at, format!("temperature_gradient {m}")).help(WHOLE))?;
     }
     if let Some(at) = text.random_walk.as_ref().filter(|_| !cells.is_turbulent()) {
         return Err(wrong(at, "random_walk in a result without turbulence")

@@ -2,7 +2,7 @@
 
 #![allow(clippy::needless_range_loop, reason = "one index runs through several arrays of lanes or components")]
 
-use super::{BEYOND, Domain, Next};
+use super::{BEYOND, Carry, Domain, Next};
 use crate::flow::Local;
 use crate::flow::cells::{Behind, Cells, NearWalls, Tetrahedron};
 use crate::geometry::{Ahead, Hit, Meeting, Path, Walls};
@@ -17,6 +17,9 @@ use std::sync::Arc;
 pub struct Meshed {
     cells: Arc<Cells>,
     walls: Walls,
+    /// Whether the space goes on elsewhere, and how places are seen from behind cyclic patches.
+    goes_on: bool,
+    shifts: Vec<Carry>,
     /// Of each patch, the index of its wall.
     of_patch: Vec<Option<usize>>,
     /// Of each cell, a distance from its centre within which there is no wall, m.
@@ -36,7 +39,8 @@ impl Meshed {
                 (distance * (1.0 - 1e-6)) as f32 * (1.0 - 1e-6)
             })
             .collect();
-        Self { cells, walls, of_patch, clear, near: None }
+        let (goes_on, shifts) = (cells.goes_on(), cells.shifts());
+        Self { cells, walls, goes_on, shifts, of_patch, clear, near: None }
     }
 
     /// The flow.
@@ -145,6 +149,14 @@ impl Domain for Meshed {
 
     fn room(&self, here: Tetrahedron, _x: Vec3) -> f64 {
         here.room()
+    }
+
+    fn goes_on(&self) -> bool {
+        self.goes_on
+    }
+
+    fn shifts(&self) -> &[Carry] {
+        &self.shifts
     }
 
     #[inline(always)]

@@ -367,6 +367,28 @@ impl Cells {
         })
     }
 
+    /// How places and vectors are carried over where the space goes on elsewhere, by the name of the patch; mirrors aside.
+    pub fn carries(&self) -> impl Iterator<Item = (&str, Carry)> {
+        self.patches.iter().filter_map(|p| {
+            let carry = match &p.kind {
+                PatchKind::Wedge => self.wedge.as_ref()?.turn(self.wedge.as_ref()?.angle),
+                PatchKind::Cyclic { carry, .. } | PatchKind::CyclicAmi { carry, .. } => *carry,
+                _ => return None,
+            };
+            Some((p.name.as_str(), carry))
+        })
+    }
+
+    /// How what is near a cyclic patch is seen from behind its partner, where other walls are near. Beside mirrors and in wedges the nearest
+    /// wall is on this side.
+    pub(crate) fn shifts(&self) -> Vec<Carry> {
+        let shift = |p: &Patch| match p.kind {
+            PatchKind::Cyclic { carry, .. } | PatchKind::CyclicAmi { carry, .. } => Some(carry),
+            _ => None,
+        };
+        self.patches.iter().filter_map(shift).collect()
+    }
+
     /// Velocity at a point, m/s; at rest outside the mesh.
     pub fn velocity(&self, x: Vec3) -> Vec3 {
         self.find(x).velocity_at(x)

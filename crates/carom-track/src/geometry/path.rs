@@ -51,6 +51,28 @@ impl Path {
         Self { points, ..*self }
     }
 
+    /// The part of the path from θ on, as a path.
+    #[must_use]
+    pub fn from(&self, theta: f64) -> Self {
+        let mut points = self.points;
+        let mut begun = [0.0; 3];
+        for c in 0..3 {
+            let p = &self.points;
+            let mut row = [0.0, p[0][c], p[1][c], p[2][c], p[3][c], p[4][c]];
+            for top in (1..6).rev() {
+                for i in 0..top {
+                    row[i] += theta * (row[i + 1] - row[i]);
+                }
+                if top > 1 {
+                    points[top - 2][c] = row[top - 1];
+                }
+            }
+            begun[c] = row[0];
+            points.iter_mut().for_each(|p| p[c] -= begun[c]);
+        }
+        Self { start: add(self.start, begun), points }
+    }
+
     /// Position at θ, m.
     #[inline(always)]
     pub fn at(&self, theta: f64) -> Vec3 {
@@ -102,9 +124,10 @@ mod tests {
     fn a_part_of_a_path_is_the_path_and_its_slope_the_quotient_of_differences() {
         let points = [[1.0, 0.0, 2.0], [0.5, 3.0, 1.0], [-1.0, 2.0, 0.0], [2.0, 2.0, 5.0], [1.0, -1.0, 3.0]];
         let path = Path { start: [5.0, 6.0, 7.0], points };
-        let part = path.until(0.3);
+        let (part, rest) = (path.until(0.3), path.from(0.3));
         for t in [0.0, 0.2, 0.7, 1.0] {
             assert!(norm(sub(part.at(t), path.at(0.3 * t))) < 1e-14, "{t}");
+            assert!(norm(sub(rest.at(t), path.at(0.3 + 0.7 * t))) < 1e-14, "{t}");
             let quotient = scale(sub(path.at(t + 1e-6), path.at(t - 1e-6)), 0.5e6);
             assert!(norm(sub(path.slope(t), quotient)) < 1e-7, "{t}");
         }

@@ -18,19 +18,21 @@
 //!
 //! **Edges of the flow.** A glide ends about at the edge that its drift leads to, and by chance spreads over half a piece at most; it begins
 //! again in the piece it has come to. Noise sees the fluid on whichever side of an edge it leads to. Thrown spheres stop exactly at edges.
+//! Where the space goes on elsewhere, beyond mirrors and cyclic patches, so does the step (`across.rs`).
 
+mod across;
 mod glide;
 mod thrown;
 
 use super::Walk;
 use super::crew::{Crew, column, motion_of};
 use super::lane;
-use super::walk::{LEAST_SHARE, finish, least_step};
-use crate::domain::{BEYOND, Domain};
+use super::walk::{LEAST_SHARE, finish, least_step, lose};
+use crate::domain::{BEYOND, Carry, Domain};
 use crate::dynamics::Bodies;
 use crate::force::brownian::{Relaxation, Spread, thermal_speed};
 use crate::force::{Drag, reynolds};
-use crate::geometry::{Hit, Path, Wandering};
+use crate::geometry::{Hit, Nearness, Path, Wandering};
 use crate::random::{Purpose, Stream};
 use crate::record::{ParticleFate, Sink};
 use crate::vector::{Vec3, add, dot, norm, scale, sub};
@@ -86,8 +88,10 @@ struct Leg<H> {
     v: Vec3,
     /// Control points of the change of spin.
     twist: [Vec3; 4],
-    /// The piece that it ends at the edge of.
+    /// The piece that it ends in or at the edge of, where that is known.
     into: Option<H>,
+    /// How it goes on elsewhere from its end.
+    carry: Option<Carry>,
     /// Whether the path is what the sphere goes along, and not only its ends are.
     smooth: bool,
 }
@@ -131,11 +135,15 @@ impl<D: Domain> Walk<'_, D> {
             let (h, gap) = self.length(crew, l, (diffusion.next, drift), way);
             (self.glide(crew, l, &body, drift, h), gap)
         } else {
-            let (h, gap) = self.length(crew, l, (crew.next[l], v), self.scatter(&diffusion));
-            (self.fly(crew, l, &body, h), gap)
+            // its own motion may lead to a wall that chance does not: always looked for
+            let (h, _) = self.length(crew, l, (crew.next[l], v), self.scatter(&diffusion));
+            (self.fly(crew, l, &body, h), 0.0)
         };
         if let Some(mut leg) = tried {
             self.agitate(crew, l, &body, &mut leg);
+            if self.domain.goes_on() && leg.into.is_none() {
+                return self.unfold(crew, l, leg, sink);
+            }
             let way = leg.path.points.iter().fold(0.0f64, |m, p| m.max(dot(*p, *p)));
             let hit = if way < gap * gap { None } else { self.domain.walls().first(&leg.path, body.radius[0]) };
             self.end_leg(crew, l, leg, hit, sink);
@@ -169,12 +177,24 @@ impl<D: Domain> Walk<'_, D> {
         if diffusion.thermal == 0.0 {
             return (longest.max(least), 0.0);
         }
-        let near = self.domain.walls().nearness(x, crew.bodies.radius[l], &Wandering { longest, ..way });
+        let near = self.nearness(x, crew.bodies.radius[l], Wandering { longest, ..way });
         if near.clear >= SMOOTH * tau || near.clear >= longest {
             return (longest.min(near.clear).max(least), near.gap);
         }
         let short = (APPROACH * near.gap * diffusion.rate / diffusion.thermal).clamp(SHORTEST, SMOOTH);
         (longest.min(short * tau).max(least), near.gap)
+    }
+
+    /// What is near, on this side and behind cyclic patches.
+    fn nearness(&self, x: Vec3, radius: f64, way: Wandering) -> Nearness {
+        let walls = self.domain.walls();
+        let mut near = walls.nearness(x, radius, &way);
+        for shift in self.domain.shifts() {
+            let way = Wandering { offset: shift.vector(way.offset), drift: shift.vector(way.drift), ..way };
+            let there = walls.nearness(shift.point(x), radius, &way);
+            near = Nearness { gap: near.gap.min(there.gap), clear: near.clear.min(there.clear) };
+        }
+        near
     }
 
     /// Adds the noise of a step to its motion without.
@@ -232,15 +252,7 @@ impl<D: Domain> Walk<'_, D> {
             return;
         }
         let (x, _, spin) = motion_of(&crew.motion, l);
-        crew.h[l] = leg.h;
-        for c in 0..3 {
-            for (to, from) in crew.step.path.iter_mut().zip(&leg.path.points) {
-                to[c][l] = from[c];
-            }
-            for (to, from) in crew.step.twist.iter_mut().zip(&leg.twist) {
-                to[c][l] = from[c];
-            }
-        }
+        lay(crew, l, &leg);
         match hit {
             Some(hit) => {
                 let v = scale(leg.path.slope(hit.meeting.theta), 1.0 / leg.h);
@@ -254,18 +266,18 @@ impl<D: Domain> Walk<'_, D> {
             }
             None => {
                 let end = [add(x, leg.path.points[4]), leg.v, add(spin, leg.twist[3])];
-                self.take_leg(crew, l, end, leg.into, sink);
+                self.take_leg(crew, l, end, (leg.into, leg.carry), sink);
             }
         }
     }
 
-    /// Takes the whole of a step, to position, velocity and spin at its end.
+    /// Takes the whole of a step, to position, velocity and spin at its end, and into a piece that may lie elsewhere.
     fn take_leg<const W: usize>(
         &self,
         crew: &mut Crew<W, D::Here>,
         l: usize,
         [x, v, spin]: [Vec3; 3],
-        into: Option<D::Here>,
+        (into, carry): (Option<D::Here>, Option<Carry>),
         sink: &mut dyn Sink,
     ) {
         let h = crew.h[l];
@@ -279,12 +291,19 @@ impl<D: Domain> Walk<'_, D> {
         lane.standing = 0;
         lane.edges = if into.is_some() && crew.time[l] == before { lane.edges + 1 } else { 0 };
         super::meeting::put(crew, l, x, v, spin);
-        match into {
+        if let Some(carry) = carry {
+            self.carry(crew, l, &carry);
+        }
+        let left = crew.here[l];
+        match into.filter(|piece| !self.domain.is_lost(*piece)) {
             Some(piece) => {
                 crew.here[l] = piece;
                 self.stray(crew, l, sink);
             }
-            None => self.reenter(crew, l, crew.time[l], x, sink),
+            None => self.reenter(crew, l, crew.time[l], column(&crew.motion.x, l), sink),
+        }
+        if self.domain.is_lost(crew.here[l]) {
+            return lose(crew, l, self.domain.cell(left), sink);
         }
         if stopped && stop >= self.settings.until {
             finish(crew, l, ParticleFate::Airborne, None, sink);
@@ -298,6 +317,19 @@ impl<D: Domain> Walk<'_, D> {
         if !self.domain.is_one_piece() {
             crew.here[l] = self.domain.enter(time, x);
             self.stray(crew, l, sink);
+        }
+    }
+}
+
+/// Makes a leg the step of a lane.
+fn lay<const W: usize, H>(crew: &mut Crew<W, H>, l: usize, leg: &Leg<H>) {
+    crew.h[l] = leg.h;
+    for c in 0..3 {
+        for (to, from) in crew.step.path.iter_mut().zip(&leg.path.points) {
+            to[c][l] = from[c];
+        }
+        for (to, from) in crew.step.twist.iter_mut().zip(&leg.twist) {
+            to[c][l] = from[c];
         }
     }
 }

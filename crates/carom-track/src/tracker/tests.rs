@@ -268,6 +268,7 @@ fn a_spinning_sphere_is_lifted_and_slows_down() {
 
 mod any_walls;
 mod cells;
+mod cells_brownian;
 mod contact;
 mod contact_round;
 mod follows;

@@ -118,3 +118,31 @@ fn large_spheres_go_as_without_molecules() {
         }
     }
 }
+
+#[test]
+fn what_is_thrown_meets_walls_where_it_does_without_molecules() {
+    // from 5 µm, some relaxation times on the way, to 0.5 mm that hardly slows down; in a corner, so that walls are met one after the other
+    let corner = [plane("floor", [0.0; 3], [0.0, 1.0, 0.0]), plane("side", [0.0; 3], [1.0, 0.0, 0.0])];
+    let domain = AnyDomain::new(Flow::Still, corner.to_vec());
+    let law = "normal = \"constant\"\nrestitution = 0.8\ntangential_restitution = 0.9\n";
+    let law = carom::spec::parse_law(law).unwrap().compile(carom::material::Library::builtin()).unwrap();
+    for (diameter, speed, way) in [(5e-6, 1.0, 5e-5), (5e-6, 20.0, 1e-3), (4e-5, 1.0, 2e-3), (5e-4, 2.0, 0.3)] {
+        for behavior in [Behavior::Trap, Behavior::Law(vec![law.clone()])] {
+            let mut with = air();
+            with.forces.drag = Drag::SchillerNaumann;
+            let without = Dynamics { brownian: false, ..with };
+            let x = [0.7 * way, 0.5 * way, 0.0];
+            let p = Particle { velocity: [-speed, -speed, 0.1 * speed], ..sphere(1, diameter, x) };
+            let until = 20.0 * way / speed;
+            let run = |d: &Dynamics| track(&domain, d, &[behavior.clone(), behavior.clone()], (until, 35), [p]);
+            let (a, b) = (run(&with), run(&without));
+            assert!(!b.impacts.is_empty() && a.ends[0].fate == b.ends[0].fate, "{:?} {:?}", a.ends, b.ends);
+            let spread = 10.0 * (2.0 * scales(&with, diameter).diffusivity * until).sqrt();
+            for (a, b) in a.impacts.iter().zip(&b.impacts).take(2) {
+                let off = (0..3).map(|c| (a.position[c] - b.position[c]).powi(2)).sum::<f64>().sqrt();
+                println!("{diameter:e} m, {speed} m/s: {off:e} of {way:e}, {spread:e} by chance");
+                assert!(off < spread + 1e-4 * way, "{off:e} {spread:e} {way:e}");
+            }
+        }
+    }
+}

@@ -94,3 +94,45 @@ fn names_and_mirrors() {
     let summary = run(&case, &RunOptions::default(), &Silent).unwrap();
     assert_eq!(summary.count(ParticleFate::Trapped), 0);
 }
+
+/// In a wedge of a pipe along x.
+const WEDGE: &str = r#"
+[fluid]
+temperature = "300 K"
+temperature_gradient = [100, 0, 0]
+[flow]
+kind = "openfoam"
+case = "wedge"
+[forces]
+gravity = [9.81, 0, 0]
+thermophoresis = { thermal_conductivity = "0.2 W/m/K" }
+[[wall]]
+patch = "inlet|outlet|pipe"
+law = "escape"
+[[injection]]
+density = "2000 kg/m3"
+diameter = "20 um"
+count = 3
+position = [0.1, 0, 0.5]
+velocity = "fluid"
+[run]
+until = "1 s"
+"#;
+
+#[test]
+fn in_a_wedge_what_acts_is_along_its_axis() {
+    read(WEDGE).unwrap();
+    for (from, to, says) in [
+        (
+            "gravity = [9.81, 0, 0]",
+            "gravity = [0, 0, -9.81]",
+            "gravity is not along the axis that 'front' goes on round",
+        ),
+        ("gradient = [100, 0, 0]", "gradient = [100, 5, 0]", "temperature_gradient is not along the axis"),
+    ] {
+        assert!(WEDGE.contains(from));
+        let error = read(&WEDGE.replacen(from, to, 1)).unwrap_err();
+        assert!(error.to_string().contains(says), "{error}");
+        assert!(error.remedy().unwrap().contains("the whole body"));
+    }
+}

@@ -192,7 +192,7 @@ impl<D: Domain> Walk<'_, D> {
             Path::straight(x, end.change)
         };
         let relaxation = end.relaxation;
-        Some(Leg { h, relaxation, path, v: end.v, twist: [[0.0; 3]; 4], into: None, smooth })
+        Some(Leg { h, relaxation, path, v: end.v, twist: [[0.0; 3]; 4], into: None, carry: None, smooth })
     }
 
     /// Square of the error of a step over the tolerated one: of the place against the way gone, of the velocity against its size, and of

@@ -34,16 +34,23 @@ impl<D: Domain> Walk<'_, D> {
         let path = Path { start: motion_of(&crew.motion, l).0, points: trial.path.map(one) };
         let rate = crew.lanes[l].diffusion.rate;
         let relaxation = Relaxation::over(rate * h);
-        let leg =
-            Leg { h, relaxation, path, v: one(trial.end.v), twist: trial.twist.map(one), into: None, smooth: true };
+        let leg = Leg {
+            h,
+            relaxation,
+            path,
+            v: one(trial.end.v),
+            twist: trial.twist.map(one),
+            into: None,
+            carry: None,
+            smooth: true,
+        };
         let leg = match self.domain.edge(crew.here[l], &path) {
             Next::Longest(share) => {
                 crew.next[l] = h * share;
                 return None;
             }
             Next::Edge { theta, into } => cut(leg, theta, into, rate),
-            // a case with places from which the space goes on elsewhere has no Brownian motion
-            Next::Carried { theta, into, .. } => cut(leg, theta, into, rate),
+            Next::Carried { theta, into, carry } => Leg { carry: Some(carry), ..cut(leg, theta, into, rate) },
             Next::Clear | Next::Wall(_) => leg,
         };
         crew.next[l] = after;
@@ -78,17 +85,27 @@ impl<D: Domain> Walk<'_, D> {
 fn cut<H>(leg: Leg<H>, theta: f64, into: H, rate: f64) -> Leg<H> {
     let path = leg.path.until(theta);
     let v = scale(leg.path.slope(theta), 1.0 / leg.h);
-    let mut twist = leg.twist;
+    let twist = split(&leg.twist, theta).0;
+    let h = theta * leg.h;
+    Leg { h, relaxation: Relaxation::over(rate * h), path, v, twist, into: Some(into), carry: None, smooth: true }
+}
+
+/// The parts of a curve from zero up to θ, and from there on relative to where it is then (de Casteljau).
+pub(super) fn split(points: &[Vec3; 4], theta: f64) -> ([Vec3; 4], [Vec3; 4]) {
+    let (mut until, mut from) = (*points, *points);
     for c in 0..3 {
-        let p = &leg.twist;
+        let p = points;
         let mut row = [0.0, p[0][c], p[1][c], p[2][c], p[3][c]];
         for top in (1..5).rev() {
             for i in 0..top {
                 row[i] += theta * (row[i + 1] - row[i]);
             }
-            twist[4 - top][c] = row[0];
+            until[4 - top][c] = row[0];
+            if top > 1 {
+                from[top - 2][c] = row[top - 1];
+            }
         }
+        from.iter_mut().for_each(|p| p[c] -= row[0]);
     }
-    let h = theta * leg.h;
-    Leg { h, relaxation: Relaxation::over(rate * h), path, v, twist, into: Some(into), smooth: true }
+    (until, from)
 }
