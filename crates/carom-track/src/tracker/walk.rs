@@ -372,7 +372,7 @@ impl<D: Domain> Walk<'_, D> {
             lane.edges += 1;
             if lane.edges > MOST_EDGES {
                 // held on the edge from both sides: a short step leads off it
-                crew.next[l] *= SHORT;
+                crew.next[l] = (SHORT * crew.next[l]).max(least_step(crew.time[l]));
             }
         }
         crew.quiet[l] = mask(lane.is_quiet() && !self.has_chance());

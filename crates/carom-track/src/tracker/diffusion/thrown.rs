@@ -8,7 +8,7 @@ use crate::geometry::Path;
 use crate::integrate::{Control, Motion, Rates, Step, growth, step};
 use crate::tracker::Walk;
 use crate::tracker::crew::{Crew, motion_of};
-use crate::tracker::walk::{Acting, MOST_EDGES, SHORT};
+use crate::tracker::walk::{Acting, MOST_EDGES, SHORT, least_step};
 use crate::vector::{Vec3, scale};
 
 impl<D: Domain> Walk<'_, D> {
@@ -56,7 +56,7 @@ impl<D: Domain> Walk<'_, D> {
         crew.next[l] = after;
         if crew.lanes[l].edges > MOST_EDGES {
             // held on the edge from both sides: a short step leads off it
-            crew.next[l] *= SHORT;
+            crew.next[l] = (SHORT * crew.next[l]).max(least_step(crew.time[l]));
         }
         Some(leg)
     }
