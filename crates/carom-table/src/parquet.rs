@@ -1,14 +1,19 @@
-//! Parquet: every column optional, snappy, a row group for every few tens of thousands of rows.
+//! Parquet: every column optional, snappy, a row group for every few tens of thousands of rows. The columns of a group are encoded side by
+//! side where threads are given; the bytes are the same.
 
 use std::io::Write;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use bytes::Bytes;
+use parquet::column::writer::{ColumnCloseResult, ColumnWriter, get_column_writer};
 
 use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical};
-use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
+use parquet::data_type::ByteArray;
 use parquet::file::metadata::KeyValue;
-use parquet::file::properties::{WriterProperties, WriterPropertiesBuilder};
-use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
-use parquet::schema::types::Type;
+use parquet::file::properties::{WriterProperties, WriterPropertiesBuilder, WriterPropertiesPtr};
+use parquet::file::writer::{SerializedFileWriter, SerializedPageWriter, SerializedRowGroupWriter, TrackedWrite};
+use parquet::schema::types::{ColumnDescPtr, SchemaDescriptor, Type};
 
 use crate::TableError;
 use crate::{Field, Kind, Table, Values};
@@ -76,7 +81,69 @@ pub(crate) fn write_columns<W: Write + Send>(
     group: &mut SerializedRowGroupWriter<'_, W>,
     table: &Table,
 ) -> Result<(), TableError> {
-    table.columns().iter().try_for_each(|column| write_column(group, &column.values))
+    for column in table.columns() {
+        let Some(mut writer) = group.next_column()? else { return Err(too_many()) };
+        write_values(writer.untyped(), &column.values)?;
+        writer.close()?;
+    }
+    Ok(())
+}
+
+/// The same, with columns encoded side by side over threads.
+pub(crate) fn write_columns_over<W: Write + Send>(
+    threads: usize,
+    (schema, properties): (&SchemaDescriptor, &WriterPropertiesPtr),
+    group: &mut SerializedRowGroupWriter<'_, W>,
+    table: &Table,
+) -> Result<(), TableError> {
+    let columns = table.columns();
+    let threads = threads.min(columns.len());
+    if threads <= 1 {
+        return write_columns(group, table);
+    }
+    if columns.len() != schema.num_columns() {
+        return Err(too_many());
+    }
+    let next = AtomicUsize::new(0);
+    let encode = || {
+        let mut done = Vec::new();
+        loop {
+            let i = next.fetch_add(1, Ordering::Relaxed);
+            let Some(column) = columns.get(i) else { return Ok::<_, TableError>(done) };
+            done.push((i, encoded(schema.column(i), properties, &column.values)?));
+        }
+    };
+    let parts = std::thread::scope(|scope| {
+        let others: Vec<_> = (1..threads).map(|_| scope.spawn(encode)).collect();
+        let own = encode();
+        let join =
+            |other: std::thread::ScopedJoinHandle<_>| other.join().unwrap_or_else(|e| std::panic::resume_unwind(e));
+        std::iter::once(own).chain(others.into_iter().map(join)).collect::<Result<Vec<_>, _>>()
+    })?;
+    let mut all: Vec<_> = parts.into_iter().flatten().collect();
+    all.sort_unstable_by_key(|(i, _)| *i);
+    for (_, (bytes, close)) in all {
+        group.append_column(&bytes, close)?;
+    }
+    Ok(())
+}
+
+/// One column as it will stand in the file.
+fn encoded(
+    column: ColumnDescPtr,
+    properties: &WriterPropertiesPtr,
+    values: &Values,
+) -> Result<(Bytes, ColumnCloseResult), TableError> {
+    let mut sink = TrackedWrite::new(Vec::new());
+    let pages = Box::new(SerializedPageWriter::new(&mut sink));
+    let mut writer = get_column_writer(column, Arc::clone(properties), pages);
+    write_values(&mut writer, values)?;
+    let close = writer.close()?;
+    Ok((sink.into_inner()?.into(), close))
+}
+
+fn too_many() -> TableError {
+    TableError::Mismatch("more columns than the Parquet schema has".to_owned())
 }
 
 fn parquet_field(field: &Field) -> Result<Type, TableError> {
@@ -92,33 +159,29 @@ fn parquet_field(field: &Field) -> Result<Type, TableError> {
         .build()?)
 }
 
-fn write_column<W: Write + Send>(
-    group: &mut SerializedRowGroupWriter<'_, W>,
-    values: &Values,
-) -> Result<(), TableError> {
-    let Some(mut column) = group.next_column()? else {
-        return Err(TableError::Mismatch("more columns than the Parquet schema has".to_owned()));
-    };
-    match values {
-        Values::Float(v) => {
+fn write_values(column: &mut ColumnWriter<'_>, values: &Values) -> Result<(), TableError> {
+    let other = || TableError::Mismatch("a column of another type than the Parquet schema has".to_owned());
+    match (values, column) {
+        (Values::Float(v), ColumnWriter::DoubleColumnWriter(column)) => {
             let (levels, present) = split(v, |x| (!x.is_nan()).then_some(*x));
-            column.typed::<DoubleType>().write_batch(&present, Some(&levels), None)?;
+            column.write_batch(&present, Some(&levels), None)?;
         }
-        Values::Integer(v) => {
+        (Values::Integer(v), ColumnWriter::Int64ColumnWriter(column)) => {
             let (levels, present) = split(v, |i| *i);
-            column.typed::<Int64Type>().write_batch(&present, Some(&levels), None)?;
+            column.write_batch(&present, Some(&levels), None)?;
         }
-        Values::Count(v) => {
+        (Values::Count(v), ColumnWriter::Int64ColumnWriter(column)) => {
             // The unsigned logical type stores the same 64 bits.
             let (levels, present) = split(v, |n| n.map(u64::cast_signed));
-            column.typed::<Int64Type>().write_batch(&present, Some(&levels), None)?;
+            column.write_batch(&present, Some(&levels), None)?;
         }
-        Values::Text(v) => {
+        (Values::Text(v), ColumnWriter::ByteArrayColumnWriter(column)) => {
             let (levels, present) = split(v, |s| s.as_deref().map(ByteArray::from));
-            column.typed::<ByteArrayType>().write_batch(&present, Some(&levels), None)?;
+            column.write_batch(&present, Some(&levels), None)?;
         }
+        _ => return Err(other()),
     }
-    Ok(column.close()?)
+    Ok(())
 }
 
 /// Definition levels (1 present, 0 null) and the present values.

@@ -16,7 +16,7 @@ use parquet::file::properties::{EnabledStatistics, WriterPropertiesPtr};
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::{SchemaDescPtr, SchemaDescriptor};
 
-use crate::parquet::{CREATED_BY, properties, root, units, write_columns};
+use crate::parquet::{CREATED_BY, properties, root, units, write_columns_over};
 use crate::{Schema, Table, TableError};
 
 const MAGIC: &[u8] = b"PAR1";
@@ -50,6 +50,7 @@ pub struct RowGroups {
     groups: Vec<RowGroupMetaData>,
     length: u64,
     pending: Table,
+    threads: usize,
 }
 
 impl RowGroups {
@@ -68,8 +69,15 @@ impl RowGroups {
             groups: Vec::new(),
             length: MAGIC.len() as u64,
             pending: Table::with_schema(&schema)?,
+            threads: 1,
             schema,
         })
+    }
+
+    /// The same, its columns encoded over so many threads; the bytes are the same.
+    #[must_use]
+    pub fn over(self, threads: usize) -> Self {
+        Self { threads, ..self }
     }
 
     /// What the file begins with.
@@ -182,8 +190,9 @@ impl RowGroups {
         let mut alone =
             SerializedFileWriter::new(Vec::new(), self.descriptor.root_schema_ptr(), Arc::clone(&self.properties))?;
         let mut group = alone.next_row_group()?;
-        write_columns(&mut group, &self.pending)?;
+        write_columns_over(self.threads, (&self.descriptor, &self.properties), &mut group, &self.pending)?;
         group.close()?;
+        alone.flush()?;
         let [metadata] = alone.flushed_row_groups() else {
             return Err(TableError::Mismatch("not one row group".to_owned()));
         };
@@ -264,12 +273,19 @@ mod tests {
     fn however_rows_come_and_wherever_the_file_is_taken_up_the_bytes_are_the_same() {
         let folder = tempfile::tempdir().unwrap();
         let mut files = Vec::new();
-        for (name, step, stop) in
-            [("whole", 1000, None), ("bits", 7, None), ("again", 7, Some(420)), ("edge", 50, Some(500))]
-        {
+        for (name, step, stop) in [
+            ("whole", 1000, None),
+            ("bits", 7, None),
+            ("again", 7, Some(420)),
+            ("edge", 50, Some(500)),
+            ("threads", 30, None),
+        ] {
             let path = folder.path().join(name).with_extension("parquet");
             let mut file = File::create_new(&path).unwrap();
             let mut groups = RowGroups::new(table(0..0).schema(), 100).unwrap();
+            if name == "threads" {
+                groups = groups.over(2);
+            }
             file.write_all(&groups.header()).unwrap();
             for from in (0..1000).step_by(step as usize) {
                 if stop == Some(from) {

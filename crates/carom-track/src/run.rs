@@ -275,16 +275,16 @@ fn run_on(
         (false, false) => Found::Keep,
     };
     let mut summary = fresh.summary.clone();
+    let threads = threads(options.threads);
     let open = |folder: &PathBuf| {
         let note = |text: &str| progress.note(text);
-        Output::open(folder, fresh, found, options.checkpoint_every, &note, disk)
+        Ok::<_, RunError>(Output::open(folder, fresh, found, options.checkpoint_every, &note, disk)?.over(threads))
     };
     let mut output = options.out.as_ref().map(open).transpose()?;
     if let Some(output) = &output {
         output.write_triangles(case.domain.walls())?;
     }
     let next = output.as_ref().map_or(particles.start, |o| o.state.next);
-    let threads = threads(options.threads);
     let forms = output.as_ref().map_or_else(Default::default, |o| output::forms(&o.state));
     let most = (held / (pool::AHEAD * threads)).max(1 << 16);
     let recording = Recording::new(case, forms, options.out.clone().unwrap_or_default(), most);
@@ -310,7 +310,7 @@ fn run_on(
     Ok(summary)
 }
 
-fn threads(asked: usize) -> usize {
+pub(crate) fn threads(asked: usize) -> usize {
     if asked > 0 { asked } else { std::thread::available_parallelism().map_or(1, std::num::NonZero::get) }
 }
 

@@ -22,6 +22,11 @@ pub(super) struct Groups {
 }
 
 impl Groups {
+    /// Columns are encoded over so many threads.
+    pub fn over(self, threads: usize) -> Self {
+        Self { groups: self.groups.over(threads), ..self }
+    }
+
     /// A new file, or one that is whole up to a length; then `rest` is the file with the rows that waited.
     pub fn open(
         layout: &Layout,

@@ -42,7 +42,8 @@ pub fn merge(shards: &[PathBuf], out: &Path, force: bool) -> Result<(Summary, Ab
     let beside = beside(out)?;
     let folder = beside.path().join("whole");
     let quiet = |_: &str| {};
-    let mut output = Output::open(&folder, whole, Found::Keep, Duration::MAX, &quiet, &Machine)?;
+    let mut output =
+        Output::open(&folder, whole, Found::Keep, Duration::MAX, &quiet, &Machine)?.over(super::threads(0));
     output.state.summary = first.summary.clone();
     parts.iter().skip(1).for_each(|(s, _, _)| output.state.summary.merge(&s.summary));
     output.state.next = output.state.particles.end;

@@ -182,6 +182,14 @@ impl<'a> Output<'a> {
         Ok(output)
     }
 
+    /// Columns of tables are encoded over so many threads.
+    pub fn over(mut self, threads: usize) -> Self {
+        for table in &mut self.tables {
+            table.groups = table.groups.take().map(|groups| groups.over(threads));
+        }
+        self
+    }
+
     fn open_tables(&mut self) -> Result<(), RunError> {
         for (t, forms) in forms(&self.state).into_iter().enumerate() {
             let layout = &LAYOUTS[t];
