@@ -7,7 +7,7 @@ use carom_track::record::{End, ParticleFate, Sink};
 use std::path::Path;
 
 /// Spheres that a thread tracks at a time.
-const BLOCK: u64 = 1000;
+const BLOCK: u64 = 250;
 
 /// A case and where its deposits are counted.
 #[derive(Clone)]
