@@ -23,6 +23,9 @@ pub trait Domain: Sync {
     /// The piece a sphere is in: a cell, a layer.
     type Here: Copy + Send + Sync + Debug;
 
+    /// The pieces of `W` spheres, laid out for questions side by side.
+    type Many<const W: usize>: Pieces<Self::Here>;
+
     /// The piece of spheres that have none yet.
     const NOWHERE: Self::Here;
 
@@ -33,7 +36,7 @@ pub trait Domain: Sync {
     fn fluid(&self, here: Self::Here, time: f64, x: Vec3) -> Local;
 
     /// The fluid's velocity at `W` times and points, m/s.
-    fn velocities<const W: usize>(&self, here: &[Self::Here; W], time: &Lanes<W>, x: &Lanes3<W>) -> Lanes3<W>;
+    fn velocities<const W: usize>(&self, here: &Self::Many<W>, time: &Lanes<W>, x: &Lanes3<W>) -> Lanes3<W>;
 
     /// Whether the fluid moves alike everywhere and always.
     fn is_uniform(&self) -> bool {
@@ -90,14 +93,34 @@ pub trait Domain: Sync {
         &[]
     }
 
+    /// [`Domain::longest`] of `W` spheres, s.
+    #[inline(always)]
+    fn longest_all<const W: usize>(&self, here: &Self::Many<W>, x: &Lanes3<W>, v: &Lanes3<W>) -> Lanes<W> {
+        let mut out = [0.0; W];
+        for l in 0..W {
+            out[l] = self.longest(here.get(l), [x[0][l], x[1][l], x[2][l]], [v[0][l], v[1][l], v[2][l]]);
+        }
+        out
+    }
+
+    /// Whether spheres go over the edges of pieces side by side, where these are plain: see [`Edges`].
+    const SIDE_BY_SIDE: bool = false;
+
+    /// Puts the spheres of some lanes into the pieces behind the edges they come to, and says of which lanes that is plain: the others stay.
+    #[inline(always)]
+    fn go_over<const W: usize>(&self, _here: &mut Self::Many<W>, _edges: &Edges<W>, _lanes: &Mask<W>) -> Mask<W> {
+        [0; W]
+    }
+
     /// What lies ahead of `W` paths (starts and control points 1 to 5 relative to them), as far as a look side by side tells.
     #[inline(always)]
     fn look<const W: usize>(
         &self,
-        _here: &[Self::Here; W],
+        _here: &Self::Many<W>,
         _start: &Lanes3<W>,
         _path: &[Lanes3<W>; 5],
         _radius: &Lanes<W>,
+        _edges: &mut Edges<W>,
     ) -> Ahead<W> {
         Ahead::UNKNOWN
     }
@@ -117,6 +140,57 @@ pub trait Domain: Sync {
 
     /// The walls.
     fn walls(&self) -> &Walls;
+}
+
+/// Where paths come to the edges of their pieces, for those of which that is plain, and that nothing else comes first.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
+pub struct Edges<const W: usize> {
+    /// The lanes.
+    pub plain: Mask<W>,
+    /// Where on the path, 0 to 1.
+    pub theta: Lanes<W>,
+    /// Which edge of the piece, as the domain counts them.
+    pub side: [u64; W],
+    /// How far the path has come there, and how that changes with θ, m.
+    pub way: Lanes3<W>,
+    /// See [`Edges::way`].
+    pub slope: Lanes3<W>,
+}
+
+impl<const W: usize> Edges<W> {
+    /// None.
+    pub const NONE: Self =
+        Self { plain: [0; W], theta: [0.0; W], side: [0; W], way: [[0.0; W]; 3], slope: [[0.0; W]; 3] };
+}
+
+/// Pieces of spheres side by side.
+pub trait Pieces<H>: Copy + Debug {
+    /// One piece for all.
+    fn all(piece: H) -> Self;
+
+    /// One sphere's piece.
+    fn get(&self, lane: usize) -> H;
+
+    /// Puts one sphere into a piece.
+    fn set(&mut self, lane: usize, piece: H);
+}
+
+impl<H: Copy + Debug, const W: usize> Pieces<H> for [H; W] {
+    #[inline(always)]
+    fn all(piece: H) -> Self {
+        [piece; W]
+    }
+
+    #[inline(always)]
+    fn get(&self, lane: usize) -> H {
+        self[lane]
+    }
+
+    #[inline(always)]
+    fn set(&mut self, lane: usize, piece: H) {
+        self[lane] = piece;
+    }
 }
 
 /// What comes first on a path.
@@ -181,6 +255,7 @@ const WITHIN: f64 = 0.9;
 
 impl Domain for Analytic {
     type Here = Piece;
+    type Many<const W: usize> = [Piece; W];
     const NOWHERE: Piece = Piece([0; 3]);
 
     #[inline(always)]
@@ -244,6 +319,7 @@ impl Domain for Analytic {
         start: &Lanes3<W>,
         path: &[Lanes3<W>; 5],
         radius: &Lanes<W>,
+        _edges: &mut Edges<W>,
     ) -> Ahead<W> {
         let mut ahead = self.walls.look(start, path, radius);
         if !self.flow.is_one_piece() {

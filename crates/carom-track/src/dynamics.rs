@@ -5,7 +5,7 @@
 
 #![allow(clippy::needless_range_loop, reason = "one index runs through several arrays of lanes or components")]
 
-use crate::domain::Domain;
+use crate::domain::{Domain, Pieces};
 use crate::flow::{Fluid, Gas, Local};
 use crate::force::{Drag, Eddy, Forces, RandomWalk, Sphere, relaxation_time};
 use crate::integrate::{Lanes, Lanes3, Motion, Rates};
@@ -162,7 +162,7 @@ impl Dynamics {
     pub fn rates<const W: usize, D: Domain>(
         &self,
         domain: &D,
-        here: &[D::Here; W],
+        here: &D::Many<W>,
         time: &Lanes<W>,
         bodies: &Bodies<W>,
         m: &Motion<W>,
@@ -172,7 +172,7 @@ impl Dynamics {
             self.plain_rates(domain, here, time, bodies, m, out);
         } else {
             for l in 0..W {
-                let r = self.full_rates(domain, here[l], time[l], bodies, m, l);
+                let r = self.full_rates(domain, here.get(l), time[l], bodies, m, l);
                 for c in 0..3 {
                     out.a[c][l] = r.acceleration[c];
                     out.alpha[c][l] = r.spin[c];
@@ -186,7 +186,7 @@ impl Dynamics {
     fn plain_rates<const W: usize, D: Domain>(
         &self,
         domain: &D,
-        here: &[D::Here; W],
+        here: &D::Many<W>,
         time: &Lanes<W>,
         bodies: &Bodies<W>,
         m: &Motion<W>,
@@ -235,7 +235,7 @@ impl Dynamics {
         if !self.is_plain(domain) {
             return f64::INFINITY;
         }
-        let u = domain.velocities(&[here], &[time], &x.map(|c| [c]));
+        let u = domain.velocities(&D::Many::all(here), &[time], &x.map(|c| [c]));
         let slip = [u[0][0] - v[0], u[1][0] - v[1], u[2][0] - v[2]];
         let weight = body.weight.map(|w| w[0]);
         let speed = slip[0].abs() + slip[1].abs() + slip[2].abs();

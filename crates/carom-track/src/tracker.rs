@@ -7,6 +7,7 @@ mod ahead;
 mod chance;
 mod contact;
 mod crew;
+mod cross;
 mod diffusion;
 mod kinds;
 mod lane;

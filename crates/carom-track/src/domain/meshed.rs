@@ -2,13 +2,13 @@
 
 #![allow(clippy::needless_range_loop, reason = "one index runs through several arrays of lanes or components")]
 
-use super::{BEYOND, Carry, Domain, Next};
+use super::{BEYOND, Carry, Domain, Edges, Next, Pieces};
 use crate::flow::Local;
-use crate::flow::cells::{Behind, Cells, NearWalls, Tetrahedron};
+use crate::flow::cells::{Behind, Cells, Leaving, NearWalls, Tetrahedra, Tetrahedron};
 use crate::geometry::{Ahead, Hit, Meeting, Path, Walls};
 use crate::integrate::{Lanes, Lanes3};
-use crate::lanes::mask;
-use crate::vector::{Vec3, dot, scale, sub, unit};
+use crate::lanes::{Mask, bits, take_lowest};
+use crate::vector::{Vec3, scale, sub, unit};
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -79,6 +79,24 @@ impl Meshed {
         }
     }
 
+    /// Whether a lane's path meets a wall up to θ.
+    #[inline(always)]
+    fn meets<const W: usize>(
+        &self,
+        l: usize,
+        start: &Lanes3<W>,
+        path: &[Lanes3<W>; 5],
+        radius: f64,
+        theta: f64,
+    ) -> bool {
+        let mut points = [[0.0; 3]; 5];
+        for k in 0..5 {
+            points[k] = [path[k][0][l], path[k][1][l], path[k][2][l]];
+        }
+        let path = Path { start: [start[0][l], start[1][l], start[2][l]], points };
+        self.walls.first(&path, radius).is_some_and(|hit| hit.meeting.theta <= theta)
+    }
+
     /// The end of a path at a patch that its walls let through: only rounding does.
     fn through(&self, patch: usize, triangle: u32, theta: f64, path: &Path) -> Option<Hit> {
         let wall = self.of_patch.get(patch).copied().flatten()?;
@@ -88,16 +106,11 @@ impl Meshed {
         let wall_velocity = self.walls.list().get(wall)?.velocity;
         Some(Hit { wall, face: Some(triangle), meeting, wall_velocity })
     }
-
-    /// How far a path goes from the centre of its cell, m.
-    #[inline(always)]
-    fn span(here: &Tetrahedron, start: Vec3, furthest: f64) -> f64 {
-        here.distance(start) + furthest
-    }
 }
 
 impl Domain for Meshed {
     type Here = Tetrahedron;
+    type Many<const W: usize> = Tetrahedra<W>;
     const NOWHERE: Tetrahedron = Tetrahedron::NOWHERE;
 
     fn enter(&self, _time: f64, x: Vec3) -> Tetrahedron {
@@ -131,15 +144,8 @@ impl Domain for Meshed {
     }
 
     #[inline(always)]
-    fn velocities<const W: usize>(&self, here: &[Tetrahedron; W], _time: &Lanes<W>, x: &Lanes3<W>) -> Lanes3<W> {
-        let mut out = [[0.0; W]; 3];
-        for l in 0..W {
-            let u = here[l].velocity_at([x[0][l], x[1][l], x[2][l]]);
-            for c in 0..3 {
-                out[c][l] = u[c];
-            }
-        }
-        out
+    fn velocities<const W: usize>(&self, here: &Tetrahedra<W>, _time: &Lanes<W>, x: &Lanes3<W>) -> Lanes3<W> {
+        here.velocities(x)
     }
 
     #[inline(always)]
@@ -160,25 +166,62 @@ impl Domain for Meshed {
     }
 
     #[inline(always)]
+    fn longest_all<const W: usize>(&self, here: &Tetrahedra<W>, x: &Lanes3<W>, v: &Lanes3<W>) -> Lanes<W> {
+        let mut longest = here.soonest(x, v);
+        for l in 0..W {
+            longest[l] *= BEYOND;
+        }
+        longest
+    }
+
+    #[inline(always)]
     fn look<const W: usize>(
         &self,
-        here: &[Tetrahedron; W],
+        here: &Tetrahedra<W>,
         start: &Lanes3<W>,
         path: &[Lanes3<W>; 5],
         radius: &Lanes<W>,
+        edges: &mut Edges<W>,
     ) -> Ahead<W> {
-        let mut ahead = Ahead::nothing([0.0; W]);
-        let mut further = [0; W];
+        let clear = here.are_clear(start, path, radius);
+        let Leaving { mut stays, mut leaves, side, theta, way, slope } = here.leave(start, path);
+        let mut near = [0; W];
         for l in 0..W {
-            let at = |p: &Lanes3<W>| [p[0][l], p[1][l], p[2][l]];
-            let x = at(start);
-            let points = path.each_ref().map(at);
-            let furthest = points.iter().map(|p| dot(*p, *p)).fold(0.0, f64::max).sqrt();
-            let free = Self::span(&here[l], x, furthest) + radius[l] < here[l].clear;
-            further[l] = mask(!(free && here[l].holds(x, &points)));
+            near[l] = !clear[l] & (stays[l] | leaves[l]);
         }
+        let mut near = bits(&near);
+        while let Some(l) = take_lowest(&mut near) {
+            if self.meets(l, start, path, radius[l], if stays[l] == 0 { theta[l] } else { 1.0 }) {
+                (stays[l], leaves[l]) = (0, 0);
+            }
+        }
+        let (mut ahead, mut further) = (Ahead::nothing([0.0; W]), [0; W]);
+        for l in 0..W {
+            further[l] = !stays[l];
+        }
+        *edges = Edges { plain: leaves, side, theta, way, slope };
         ahead.look_further(&further);
         ahead
+    }
+
+    const SIDE_BY_SIDE: bool = true;
+
+    #[inline(always)]
+    fn go_over<const W: usize>(&self, here: &mut Tetrahedra<W>, edges: &Edges<W>, lanes: &Mask<W>) -> Mask<W> {
+        let (mut id, mut cell, mut known) = ([0; W], [0; W], 0);
+        let mut left = bits(lanes);
+        while let Some(l) = take_lowest(&mut left) {
+            if let Some(next) = self.cells.next(here.id[l], here.cell[l], edges.side[l] as usize) {
+                (id[l], cell[l]) = next;
+                known |= 1 << l;
+            }
+        }
+        let (mut into, good) = self.cells.make(&id, &cell, known);
+        while let Some(l) = take_lowest(&mut known) {
+            into.clear[l] = f64::from(self.clear[cell[l] as usize]);
+        }
+        here.take(&into, &good);
+        good
     }
 
     #[inline(always)]
@@ -208,8 +251,9 @@ impl Domain for Meshed {
     #[inline(always)]
     fn first(&self, here: Tetrahedron, path: &Path, radius: f64) -> Next<Tetrahedron> {
         let edge = self.edge(here, path);
-        let furthest = path.points.iter().map(|p| dot(*p, *p)).fold(0.0, f64::max).sqrt();
-        if Self::span(&here, path.start, furthest) + radius < here.clear {
+        let lanes = |v: Vec3| v.map(|c| [c]);
+        let clear = Tetrahedra::<1>::all(here).are_clear(&lanes(path.start), &path.points.map(lanes), &[radius]);
+        if clear[0] != 0 {
             return edge;
         }
         super::earlier(edge, self.walls.first(path, radius))

@@ -7,14 +7,18 @@
 mod beyond;
 mod cut;
 mod locate;
+mod making;
 mod near_walls;
 mod nodes;
 mod state;
 mod strips;
+mod tetrahedra;
 mod tetrahedron;
 
 pub(crate) use beyond::carry_spin;
 pub(crate) use near_walls::NearWalls;
+pub(crate) use tetrahedra::Leaving;
+pub use tetrahedra::Tetrahedra;
 pub use tetrahedron::Tetrahedron;
 
 use super::Local;
@@ -33,12 +37,10 @@ use strips::Strips;
 #[derive(Debug)]
 pub struct Cells {
     cut: Cut,
-    /// Places of the nodes: points, then centres of cells, m.
-    points: Vec<Vec3>,
+    /// Points, then centres of cells.
+    nodes: Vec<Node>,
     /// Number of the first centre.
     centres: usize,
-    /// Velocities of the nodes, m/s.
-    velocity: Vec<Vec3>,
     /// k, m²/s², and ε, m²/s³, of the nodes, where there is turbulence.
     turbulence: Option<Vec<[f64; 2]>>,
     /// Temperature and density of the nodes, where there are any.
@@ -51,6 +53,15 @@ pub struct Cells {
     locator: Option<Locator>,
     bounds: Bounds,
     inverted: usize,
+}
+
+/// A point of the mesh or the centre of a cell: place and velocity side by side, as tetrahedra are made of both.
+#[derive(Clone, Copy, Debug)]
+struct Node {
+    /// m.
+    place: Vec3,
+    /// m/s.
+    velocity: Vec3,
 }
 
 /// What lies behind a side of a tetrahedron.
@@ -149,15 +160,15 @@ impl Cells {
             return Err(CellsError::Density { least });
         }
         let state = temperature.map(|t| state::nodes(&t, density.as_deref()));
-        let mut points = mesh.points.clone();
-        let centres = points.len();
-        points.extend(cell_centres);
+        let centres = mesh.points.len();
+        let places = mesh.points.iter().copied().chain(cell_centres);
+        let along = |v: Vec3| plane.map_or(v, |p| p.along(v));
+        let nodes = places.zip(velocity).map(|(place, velocity)| Node { place, velocity: along(velocity) }).collect();
         let bounds = Bounds::around(mesh.points.iter().copied());
         let mut cells = Self {
             cut,
-            points,
+            nodes,
             centres,
-            velocity,
             turbulence,
             state,
             patches: mesh.patches.clone(),
@@ -219,53 +230,24 @@ impl Cells {
         (corners, self.centre(cell as usize))
     }
 
-    /// A tetrahedron by its number; `None` if it is flat, or another stands for it.
-    pub(crate) fn tetrahedron(&self, tet: u32) -> Option<Tetrahedron> {
-        self.tetrahedron_of(tet, self.cut.cell(tet))
-    }
-
-    /// The same of a known cell.
+    /// The tetrahedron within the mesh behind a side of another one, and its cell; none where the mesh does not say it or ends.
     #[inline(always)]
-    pub(crate) fn tetrahedron_of(&self, tet: u32, cell: u32) -> Option<Tetrahedron> {
-        let ([a, b, c], centre) = self.corners(tet, cell);
-        let (origin, velocity) = (self.points[centre], self.velocity[centre]);
-        let edges = [sub(self.points[a], origin), sub(self.points[b], origin), sub(self.points[c], origin)];
-        let mut changes =
-            [sub(self.velocity[a], velocity), sub(self.velocity[b], velocity), sub(self.velocity[c], velocity)];
-        let (mut flat, mut at) = (origin, velocity);
-        let dual = match (&self.plane, &self.strips) {
-            (None, _) => tetrahedron::dual(edges)?,
-            (Some(plane), strips) => {
-                flat = plane.put(origin);
-                at = plane.along(velocity);
-                changes = changes.map(|c| plane.along(c));
-                match strips {
-                    Some(strips) => strips.dual(tet, plane, edges)?,
-                    None => tetrahedron::dual(edges)?.map(|d| plane.along(d)),
-                }
-            }
-        };
-        let mut gradient = [[0.0; 3]; 3];
-        for (row, i) in gradient.iter_mut().zip(0..3) {
-            for (g, j) in row.iter_mut().zip(0..3) {
-                *g = changes[0][i] * dual[0][j] + changes[1][i] * dual[1][j] + changes[2][i] * dual[2][j];
-            }
+    pub(crate) fn next(&self, id: u32, cell: u32, side: usize) -> Option<(u32, u32)> {
+        if side < 3 {
+            let next = self.cut.beside(id, side);
+            return (next != NONE).then_some((next, cell));
         }
-        Some(Tetrahedron { origin: flat, dual, velocity: at, gradient, id: tet, cell, clear: 0.0 })
+        self.cut.across(id, self.cut.face(id) as usize)
     }
 
     /// What is behind a side.
     #[inline(always)]
     pub(crate) fn behind(&self, here: &Tetrahedron, side: usize, x: Vec3, slope: Vec3) -> Behind {
-        if side < 3 {
-            let next = self.cut.beside(here.id, side);
-            return if next == NONE { Behind::Unknown } else { Behind::Inside(next, here.cell) };
+        match self.next(here.id, here.cell, side) {
+            Some((next, cell)) => Behind::Inside(next, cell),
+            None if side < 3 => Behind::Unknown,
+            None => self.behind_boundary(here, self.cut.face(here.id) as usize, x, slope),
         }
-        let face = self.cut.face(here.id) as usize;
-        if let Some((next, cell)) = self.cut.across(here.id, face) {
-            return Behind::Inside(next, cell);
-        }
-        self.behind_boundary(here, face, x, slope)
     }
 
     /// What is behind a face of the boundary.
@@ -277,7 +259,7 @@ impl Cells {
         };
         match &patch.kind {
             PatchKind::Symmetry => {
-                let corners = self.cut.triangles[triangle as usize].map(|p| self.points[p as usize]);
+                let corners = self.cut.triangles[triangle as usize].map(|p| self.nodes[p as usize].place);
                 match unit(crate::vector::cross(sub(corners[1], corners[0]), sub(corners[2], corners[0]))) {
                     Some(normal) => Behind::Carried(beyond::mirror(corners[0], normal), Some(here.id)),
                     None => Behind::Unknown,
@@ -316,19 +298,19 @@ impl Cells {
 
     /// The centre of a cell, in the plane of a plane case, m.
     pub(crate) fn middle(&self, cell: usize) -> Vec3 {
-        self.flat(self.points[self.centre(cell)])
+        self.flat(self.nodes[self.centre(cell)].place)
     }
 
     /// A triangle of a patch.
     pub(crate) fn triangle(&self, patch: usize, triangle: u32) -> Option<Triangle> {
         let first = self.cut.first[self.patches.get(patch)?.faces.start];
-        Some(self.cut.triangles.get((first + triangle) as usize)?.map(|p| self.points[p as usize]))
+        Some(self.cut.triangles.get((first + triangle) as usize)?.map(|p| self.nodes[p as usize].place))
     }
 
     /// The triangles of a patch, m; sides turned as the faces are, out of the mesh.
     pub fn triangles(&self, patch: &Patch) -> Vec<Triangle> {
         let (from, to) = (self.cut.first[patch.faces.start] as usize, self.cut.first[patch.faces.end] as usize);
-        self.cut.triangles[from..to].iter().map(|t| t.map(|p| self.points[p as usize])).collect()
+        self.cut.triangles[from..to].iter().map(|t| t.map(|p| self.nodes[p as usize].place)).collect()
     }
 
     /// The triangles of a patch as a wall: of a plane case far beyond its sides, of a wedge with its neighbours on both sides. Each
@@ -403,7 +385,7 @@ impl Cells {
     pub(crate) fn fastest(&self, [low, high]: [Vec3; 2]) -> f64 {
         let around = Bounds { min: low, max: high };
         let mut most = 0.0f64;
-        let speed = |p: usize| norm(self.velocity[p]);
+        let speed = |p: usize| norm(self.nodes[p].velocity);
         self.locator.iter().for_each(|l| {
             l.meeting(&around, |cell| {
                 for tet in self.cut.of_cell(cell as usize) {

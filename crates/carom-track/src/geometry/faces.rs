@@ -114,24 +114,35 @@ impl<const W: usize> Ahead<W> {
                 plain[l] &= !(above[l] & mask(b[i + 1][l] > 0.0));
             }
         }
-        let m = powers(b);
-        let (mut low, mut high) = ([0.0; W], [1.0; W]);
-        let mut theta = [0.0; W];
-        for l in 0..W {
-            theta[l] = b[0][l] / (b[0][l] - b[5][l]);
+        if bits(&plain) == 0 {
+            return ([0.0; W], plain);
         }
-        let mut open = plain;
-        for _ in 0..MOST {
-            halley(&m, &mut theta, &mut low, &mut high, &mut open);
-            if bits(&open) == 0 {
-                break;
-            }
-        }
-        for l in 0..W {
-            plain[l] &= !open[l];
-        }
+        let theta = single_descents(b, &mut plain);
         (theta, plain)
     }
+}
+
+/// Where polynomials by their Bernstein coefficients come down through zero, for the lanes of which it is plain that they do so once.
+/// Lanes on which the search does not settle are taken out.
+#[inline(always)]
+pub(crate) fn single_descents<const W: usize>(b: &[Lanes<W>; 6], plain: &mut Mask<W>) -> Lanes<W> {
+    let m = powers(b);
+    let (mut low, mut high) = ([0.0; W], [1.0; W]);
+    let mut theta = [0.0; W];
+    for l in 0..W {
+        theta[l] = b[0][l] / (b[0][l] - b[5][l]);
+    }
+    let mut open = *plain;
+    for _ in 0..MOST {
+        halley(&m, &mut theta, &mut low, &mut high, &mut open);
+        if bits(&open) == 0 {
+            break;
+        }
+    }
+    for l in 0..W {
+        plain[l] &= !open[l];
+    }
+    theta
 }
 
 /// Iterations after which a root is left to the careful search: gentle curves need two or three.

@@ -22,7 +22,7 @@ pub use bounds::Bounds;
 pub(crate) use contact::first_contact;
 pub use cylinder::Cylinder;
 pub use faces::Ahead;
-pub(crate) use faces::Face;
+pub(crate) use faces::{Face, single_descents};
 pub(crate) use mesh::tree::{STACK, Tree};
 pub use mesh::{Mesh, Triangle};
 pub use nearness::{Nearness, Wandering};

@@ -4,7 +4,7 @@
 
 use super::crew::{Crew, column};
 use super::{Walk, lane};
-use crate::domain::{Domain, Next};
+use crate::domain::{Domain, Next, Pieces};
 use crate::geometry::{Ahead, Path};
 use crate::lanes::{Mask, bits, mask, take_lowest};
 use crate::vector::{Vec3, add};
@@ -29,7 +29,7 @@ impl<D: Domain> Walk<'_, D> {
     #[inline(always)]
     pub(super) fn find_first<const W: usize>(
         &self,
-        crew: &Crew<W, D::Here>,
+        crew: &Crew<W, D::Many<W>>,
         ahead: &Ahead<W>,
         among: &Mask<W>,
         met: &mut [Met<D::Here>; W],
@@ -37,6 +37,9 @@ impl<D: Domain> Walk<'_, D> {
         let mut look = *among;
         for l in 0..W {
             look[l] &= mask(crew.step.error_squared[l] <= 1.0) & mask(ahead.count[l] != 0);
+        }
+        if bits(&look) == 0 {
+            return 0;
         }
         let (mut theta, plain) = ahead.descents();
         let mut hard = look;
@@ -46,7 +49,7 @@ impl<D: Domain> Walk<'_, D> {
         let (mut hard, mut found) = (bits(&hard), 0);
         let mut plain = bits(&look) & !hard;
         while let Some(l) = take_lowest(&mut hard) {
-            let next = self.domain.first(crew.here[l], &path_of(crew, l), crew.bodies.radius[l]);
+            let next = self.domain.first(crew.here.get(l), &path_of(crew, l), crew.bodies.radius[l]);
             theta[l] = match &next {
                 Next::Clear => continue,
                 Next::Wall(hit) => hit.meeting.theta,
@@ -74,6 +77,6 @@ impl<D: Domain> Walk<'_, D> {
 }
 
 #[inline(always)]
-fn path_of<const W: usize, H>(crew: &Crew<W, H>, l: usize) -> Path {
+fn path_of<const W: usize, P>(crew: &Crew<W, P>, l: usize) -> Path {
     Path { start: column(&crew.motion.x, l), points: lane::points(&crew.step.path, l) }
 }

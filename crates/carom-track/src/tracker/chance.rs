@@ -5,7 +5,7 @@
 
 use super::Walk;
 use super::crew::{Crew, motion_of};
-use crate::domain::{Carry, Domain};
+use crate::domain::{Carry, Domain, Pieces};
 use crate::flow::{Fluid, Local};
 use crate::force::{Eddy, RandomWalk, Surroundings};
 use crate::random::{Purpose, Stream};
@@ -79,7 +79,7 @@ impl<D: Domain> Walk<'_, D> {
     }
 
     /// Gives a lane's eddy the deviates of the middle of the step it is about to try, or lets them drift with the time.
-    pub(super) fn lean<const W: usize>(&self, crew: &mut Crew<W, D::Here>, l: usize) {
+    pub(super) fn lean<const W: usize>(&self, crew: &mut Crew<W, D::Many<W>>, l: usize) {
         let chance = &crew.lanes[l].chance;
         if crew.follows[l] {
             // what follows a gust at once must see it change, and not jump from step to step
@@ -95,7 +95,7 @@ impl<D: Domain> Walk<'_, D> {
     }
 
     /// Brings chance up to a lane's time and place, `step` after it last was, draws what is due, and says when to stop next.
-    pub(super) fn renew<const W: usize>(&self, crew: &mut Crew<W, D::Here>, l: usize, step: f64) {
+    pub(super) fn renew<const W: usize>(&self, crew: &mut Crew<W, D::Many<W>>, l: usize, step: f64) {
         let mut changed = false;
         match &self.dynamics.random_walk {
             Some(walk) => changed = self.renew_eddy(walk, crew, l, step),
@@ -113,9 +113,15 @@ impl<D: Domain> Walk<'_, D> {
     }
 
     /// Ages the eddy; whether another one was met.
-    fn renew_eddy<const W: usize>(&self, walk: &RandomWalk, crew: &mut Crew<W, D::Here>, l: usize, step: f64) -> bool {
+    fn renew_eddy<const W: usize>(
+        &self,
+        walk: &RandomWalk,
+        crew: &mut Crew<W, D::Many<W>>,
+        l: usize,
+        step: f64,
+    ) -> bool {
         let (x, v, _) = motion_of(&crew.motion, l);
-        let (piece, time) = (crew.here[l], crew.time[l]);
+        let (piece, time) = (crew.here.get(l), crew.time[l]);
         let properties = self.properties(piece, time, x);
         let nu = properties.kinematic_viscosity();
         let tau = self.dynamics.relaxation_time_in(&properties, &crew.bodies.sphere[l]);

@@ -10,9 +10,9 @@ use crate::integrate::{Lanes, Lanes3, Motion, Rates, Step};
 use crate::lanes::{Mask, choose, mask};
 use crate::vector::Vec3;
 
-/// The lanes at work, `H` being the pieces of the domain they are in.
+/// The lanes at work, `P` being the pieces of the domain they are in.
 #[repr(align(64))]
-pub(super) struct Crew<const W: usize, H> {
+pub(super) struct Crew<const W: usize, P> {
     pub lanes: [Lane; W],
     /// Which lanes have a particle.
     pub busy: [bool; W],
@@ -26,7 +26,7 @@ pub(super) struct Crew<const W: usize, H> {
     /// The longest step worth trying in the piece each is in, s.
     pub longest: Lanes<W>,
     /// The pieces of the domain they are in.
-    pub here: [H; W],
+    pub here: P,
     /// Trial steps so far.
     pub steps: [u64; W],
     pub motion: Motion<W>,
@@ -42,9 +42,9 @@ pub(super) struct Crew<const W: usize, H> {
     pub step: Step<W>,
 }
 
-impl<const W: usize, H: Copy> Crew<W, H> {
+impl<const W: usize, P: Copy> Crew<W, P> {
     /// No lane at work.
-    pub const fn idle(nowhere: H) -> Self {
+    pub const fn idle(here: P) -> Self {
         Self {
             lanes: [Lane::IDLE; W],
             busy: [false; W],
@@ -53,7 +53,7 @@ impl<const W: usize, H: Copy> Crew<W, H> {
             next: [0.0; W],
             stop: [0.0; W],
             longest: [f64::INFINITY; W],
-            here: [nowhere; W],
+            here,
             steps: [0; W],
             motion: Motion::ZERO,
             rates: Rates::ZERO,
@@ -121,7 +121,7 @@ impl<const W: usize, H: Copy> Crew<W, H> {
     }
 }
 
-impl<const W: usize, H> Crew<W, H> {
+impl<const W: usize, P> Crew<W, P> {
     /// The step to try after one that was good, s: one cut short says nothing against a longer one.
     #[inline(always)]
     pub fn after(&self, l: usize, factor: f64) -> f64 {

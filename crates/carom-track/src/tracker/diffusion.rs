@@ -28,7 +28,7 @@ use super::Walk;
 use super::crew::{Crew, column, motion_of};
 use super::lane;
 use super::walk::{LEAST_SHARE, finish, least_step, lose};
-use crate::domain::{BEYOND, Carry, Domain};
+use crate::domain::{BEYOND, Carry, Domain, Pieces};
 use crate::dynamics::Bodies;
 use crate::force::brownian::{Relaxation, Spread, thermal_speed};
 use crate::force::{Drag, reynolds};
@@ -98,7 +98,7 @@ struct Leg<H> {
 
 impl<D: Domain> Walk<'_, D> {
     /// How a sphere diffuses.
-    pub(super) fn diffusion<const W: usize>(&self, crew: &Crew<W, D::Here>, l: usize) -> Diffusion {
+    pub(super) fn diffusion<const W: usize>(&self, crew: &Crew<W, D::Many<W>>, l: usize) -> Diffusion {
         let body = crew.bodies.one(l);
         let forces = &self.dynamics.forces;
         let sphere = body.sphere[0];
@@ -110,14 +110,14 @@ impl<D: Domain> Walk<'_, D> {
         // the fluid that goes along
         let mass = if forces.added_mass { 1.0 + 0.5 * fluid.density / sphere.density } else { 1.0 };
         let rate = body.drag_rate[0] * factor / mass;
-        let slow = self.domain.fluid(crew.here[l], crew.time[l], motion_of(&crew.motion, l).0).velocity;
+        let slow = self.domain.fluid(crew.here.get(l), crew.time[l], motion_of(&crew.motion, l).0).velocity;
         let thermal = if forces.drag == Drag::None { 0.0 } else { thermal_speed(fluid, &sphere) / mass.sqrt() };
         let glides = factor < LINEAR && thermal > 0.0 && !self.dynamics.spins();
         Diffusion { rate, thermal, slow, jitter: [0.0; 3], next: 1.0 / rate, draws: 0, glides }
     }
 
     /// One trial step of a lane.
-    pub(super) fn diffuse<const W: usize>(&self, crew: &mut Crew<W, D::Here>, l: usize, sink: &mut dyn Sink) {
+    pub(super) fn diffuse<const W: usize>(&self, crew: &mut Crew<W, D::Many<W>>, l: usize, sink: &mut dyn Sink) {
         crew.steps[l] += 1;
         if crew.steps[l] > self.settings.max_steps {
             sink.stalled();
@@ -158,12 +158,12 @@ impl<D: Domain> Walk<'_, D> {
     /// How long a step may be that the tolerance allows `next` (s) and whose mean motion is at `mean` (m/s); how near the walls are, m.
     fn length<const W: usize>(
         &self,
-        crew: &Crew<W, D::Here>,
+        crew: &Crew<W, D::Many<W>>,
         l: usize,
         (next, mean): (f64, Vec3),
         way: Wandering,
     ) -> (f64, f64) {
-        let (x, here) = (column(&crew.motion.x, l), crew.here[l]);
+        let (x, here) = (column(&crew.motion.x, l), crew.here.get(l));
         let diffusion = &crew.lanes[l].diffusion;
         let tau = 1.0 / diffusion.rate;
         let mut longest = next.min(crew.stop[l] - crew.time[l]);
@@ -198,7 +198,13 @@ impl<D: Domain> Walk<'_, D> {
     }
 
     /// Adds the noise of a step to its motion without.
-    fn agitate<const W: usize>(&self, crew: &mut Crew<W, D::Here>, l: usize, body: &Bodies<1>, leg: &mut Leg<D::Here>) {
+    fn agitate<const W: usize>(
+        &self,
+        crew: &mut Crew<W, D::Many<W>>,
+        l: usize,
+        body: &Bodies<1>,
+        leg: &mut Leg<D::Here>,
+    ) {
         let number = crew.lanes[l].particle.number;
         let diffusion = &mut crew.lanes[l].diffusion;
         if diffusion.thermal == 0.0 {
@@ -240,7 +246,7 @@ impl<D: Domain> Walk<'_, D> {
     /// Ends a step where it hits a wall, or takes all of it.
     fn end_leg<const W: usize>(
         &self,
-        crew: &mut Crew<W, D::Here>,
+        crew: &mut Crew<W, D::Many<W>>,
         l: usize,
         leg: Leg<D::Here>,
         hit: Option<Hit>,
@@ -274,7 +280,7 @@ impl<D: Domain> Walk<'_, D> {
     /// Takes the whole of a step, to position, velocity and spin at its end, and into a piece that may lie elsewhere.
     fn take_leg<const W: usize>(
         &self,
-        crew: &mut Crew<W, D::Here>,
+        crew: &mut Crew<W, D::Many<W>>,
         l: usize,
         [x, v, spin]: [Vec3; 3],
         (into, carry): (Option<D::Here>, Option<Carry>),
@@ -294,15 +300,15 @@ impl<D: Domain> Walk<'_, D> {
         if let Some(carry) = carry {
             self.carry(crew, l, &carry);
         }
-        let left = crew.here[l];
+        let left = crew.here.get(l);
         match into.filter(|piece| !self.domain.is_lost(*piece)) {
             Some(piece) => {
-                crew.here[l] = piece;
+                crew.here.set(l, piece);
                 self.stray(crew, l, sink);
             }
             None => self.reenter(crew, l, crew.time[l], column(&crew.motion.x, l), sink),
         }
-        if self.domain.is_lost(crew.here[l]) {
+        if self.domain.is_lost(crew.here.get(l)) {
             return lose(crew, l, self.domain.cell(left), sink);
         }
         if stopped && stop >= self.settings.until {
@@ -313,16 +319,23 @@ impl<D: Domain> Walk<'_, D> {
     }
 
     /// Puts a lane that glides into the piece it has come to.
-    fn reenter<const W: usize>(&self, crew: &mut Crew<W, D::Here>, l: usize, time: f64, x: Vec3, sink: &mut dyn Sink) {
+    fn reenter<const W: usize>(
+        &self,
+        crew: &mut Crew<W, D::Many<W>>,
+        l: usize,
+        time: f64,
+        x: Vec3,
+        sink: &mut dyn Sink,
+    ) {
         if !self.domain.is_one_piece() {
-            crew.here[l] = self.domain.enter(time, x);
+            crew.here.set(l, self.domain.enter(time, x));
             self.stray(crew, l, sink);
         }
     }
 }
 
 /// Makes a leg the step of a lane.
-fn lay<const W: usize, H>(crew: &mut Crew<W, H>, l: usize, leg: &Leg<H>) {
+fn lay<const W: usize, P, H>(crew: &mut Crew<W, P>, l: usize, leg: &Leg<H>) {
     crew.h[l] = leg.h;
     for c in 0..3 {
         for (to, from) in crew.step.path.iter_mut().zip(&leg.path.points) {

@@ -17,7 +17,7 @@ use carom::math::Fma;
 impl<D: Domain> Walk<'_, D> {
     /// Tries the steps of all lanes.
     #[inline(always)]
-    pub(super) fn try_steps<const W: usize>(&self, crew: &mut Crew<W, D::Here>, control: Control) {
+    pub(super) fn try_steps<const W: usize>(&self, crew: &mut Crew<W, D::Many<W>>, control: Control) {
         let (mut some, mut all) = (false, true);
         for l in 0..W {
             some |= crew.busy[l] & crew.follows[l];
@@ -39,7 +39,7 @@ impl<D: Domain> Walk<'_, D> {
 /// The steps of the lanes that follow the fluid: in a frame of their own, so that the others' loop keeps its numbers near.
 struct Following<'a, 'b, const W: usize, D: Domain> {
     walk: &'a Walk<'b, D>,
-    crew: &'a mut Crew<W, D::Here>,
+    crew: &'a mut Crew<W, D::Many<W>>,
     control: Control,
     /// Whether no others are at work.
     all: bool,

@@ -91,7 +91,7 @@ const MOST_POINTS: f64 = 64.0;
 
 /// Tells the sink the path from the start of the step up to `theta` (not included), with as many points as a smooth
 /// line needs: no chord further from the curve than a thousandth of the step's length.
-pub(super) fn trace<const W: usize, H: Copy>(crew: &Crew<W, H>, l: usize, theta: f64, sink: &mut dyn Sink) {
+pub(super) fn trace<const W: usize, P: Copy>(crew: &Crew<W, P>, l: usize, theta: f64, sink: &mut dyn Sink) {
     let lane = &crew.lanes[l];
     let (x, v, spin) = super::crew::motion_of(&crew.motion, l);
     let path = points(&crew.step.path, l);

@@ -8,7 +8,7 @@ use super::lane::{Lane, trace};
 use super::walk::finish;
 use super::wall_jet::leave;
 use super::{Behavior, Particle, Walk};
-use crate::domain::{Domain, Hit};
+use crate::domain::{Domain, Hit, Pieces};
 use crate::dynamics::Bodies;
 use crate::force::brownian::BOLTZMANN;
 use crate::random::{Purpose, Stream};
@@ -42,7 +42,7 @@ impl<D: Domain> Walk<'_, D> {
     #[inline(always)]
     pub(super) fn meet<const W: usize>(
         &self,
-        crew: &mut Crew<W, D::Here>,
+        crew: &mut Crew<W, D::Many<W>>,
         l: usize,
         hit: &Hit,
         v: Vec3,
@@ -99,7 +99,7 @@ impl<D: Domain> Walk<'_, D> {
     #[inline(never)]
     fn begin_contact<'b, const W: usize>(
         &'b self,
-        crew: &Crew<W, D::Here>,
+        crew: &Crew<W, D::Many<W>>,
         l: usize,
         hit: &Hit,
         after: &mut After,
@@ -122,7 +122,7 @@ impl<D: Domain> Walk<'_, D> {
     #[inline(always)]
     pub(super) fn outcome<const W: usize>(
         &self,
-        crew: &Crew<W, D::Here>,
+        crew: &Crew<W, D::Many<W>>,
         l: usize,
         hit: &Hit,
         v: Vec3,
@@ -211,14 +211,14 @@ impl<D: Domain> Walk<'_, D> {
 
     /// Would the next bounce rise less than the stated height? The steady forces alone press.
     #[inline(always)]
-    fn settles<const W: usize>(&self, crew: &Crew<W, D::Here>, l: usize, hit: &Hit, after: &After) -> bool {
+    fn settles<const W: usize>(&self, crew: &Crew<W, D::Many<W>>, l: usize, hit: &Hit, after: &After) -> bool {
         let n = hit.meeting.normal;
         let up = dot(sub(after.velocity, hit.wall_velocity), n);
         let height = self.settings.settle_height.of(crew.bodies.radius[l]);
         let limit = 2.0 * height;
         let along = sub(after.velocity, scale(n, up));
         let (x, mut body) = (hit.meeting.position, crew.bodies.one(l));
-        let here = (crew.here[l], crew.time[l]);
+        let here = (crew.here.get(l), crew.time[l]);
         // a bound first, which costs no power
         if up > 0.0 && up * up >= limit * self.dynamics.press_at_most(self.domain, here, &body, x, along, n).max(0.0) {
             return false;
@@ -239,7 +239,7 @@ impl<D: Domain> Walk<'_, D> {
     #[inline(never)]
     fn is_pressed_by_chance<const W: usize>(
         &self,
-        crew: &Crew<W, D::Here>,
+        crew: &Crew<W, D::Many<W>>,
         l: usize,
         hit: &Hit,
         after: &After,
@@ -249,7 +249,7 @@ impl<D: Domain> Walk<'_, D> {
         let radius = crew.bodies.radius[l];
         let height = self.settings.settle_height.of(radius).max(LOWEST * radius);
         let along = sub(after.velocity, scale(n, up));
-        let here = (crew.here[l], crew.time[l]);
+        let here = (crew.here.get(l), crew.time[l]);
         let body = crew.bodies.one(l);
         let press = self.press(here, &body, hit.meeting.position, along, after.spin, n);
         if self.dynamics.brownian && press * height <= self.thermal_energy(&body) {
@@ -344,7 +344,7 @@ fn is_held_at_rest(law: &WallLaw, impact: &Impact) -> bool {
 }
 
 #[inline(always)]
-pub(super) fn put<const W: usize, H>(crew: &mut Crew<W, H>, l: usize, x: Vec3, v: Vec3, spin: Vec3) {
+pub(super) fn put<const W: usize, P>(crew: &mut Crew<W, P>, l: usize, x: Vec3, v: Vec3, spin: Vec3) {
     for c in 0..3 {
         crew.motion.x[c][l] = x[c];
         crew.motion.v[c][l] = v[c];

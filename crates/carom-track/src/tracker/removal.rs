@@ -8,7 +8,7 @@ use super::contact::{Adhered, Contact};
 use super::crew::Crew;
 use super::meeting::{After, law_of};
 use super::{Behavior, Walk};
-use crate::domain::{Domain, Hit};
+use crate::domain::{Domain, Hit, Pieces};
 use crate::record::Event;
 use carom::removal::{Fluid, Mode, Removal};
 
@@ -27,7 +27,7 @@ impl<D: Domain> Walk<'_, D> {
     /// How the flow takes off a sphere that an impact would leave where it hit, if it does.
     pub(super) fn removes<const W: usize>(
         &self,
-        crew: &Crew<W, D::Here>,
+        crew: &Crew<W, D::Many<W>>,
         l: usize,
         hit: &Hit,
         event: Event,
@@ -37,7 +37,7 @@ impl<D: Domain> Walk<'_, D> {
         }
         let Behavior::Removal(_, removal) = self.behaviors.get(hit.wall)? else { return None };
         let held = self.held(crew, l, hit)?;
-        let flow = || self.domain.fluid(crew.here[l], crew.time[l], hit.meeting.position).friction_velocity;
+        let flow = || self.domain.fluid(crew.here.get(l), crew.time[l], hit.meeting.position).friction_velocity;
         let speed = removal.friction_velocity.unwrap_or_else(flow);
         match removal.mode {
             Some(mode) => held.mode([mode], speed),
@@ -48,7 +48,7 @@ impl<D: Domain> Walk<'_, D> {
     /// The contact motion in which it leaves, if it is to be followed and rolls.
     pub(super) fn rolls_off<'b, const W: usize>(
         &'b self,
-        crew: &Crew<W, D::Here>,
+        crew: &Crew<W, D::Many<W>>,
         l: usize,
         hit: &Hit,
         after: &After,
@@ -61,7 +61,7 @@ impl<D: Domain> Walk<'_, D> {
             return None;
         }
         let held = self.held(crew, l, hit)?;
-        let fluid = self.properties(crew.here[l], crew.time[l], hit.meeting.position);
+        let fluid = self.properties(crew.here.get(l), crew.time[l], hit.meeting.position);
         let body = (crew.bodies.sphere[l].mass(), crew.bodies.radius[l]);
         let adhered = Adhered::new(hit.wall, removal.friction_velocity, &held, body, fluid.mean_free_path);
         let mut contact = self.contact(crew, l, hit, after).rolling_off(adhered);
@@ -69,9 +69,9 @@ impl<D: Domain> Walk<'_, D> {
     }
 
     /// What holds a sphere where it hit.
-    fn held<const W: usize>(&self, crew: &Crew<W, D::Here>, l: usize, hit: &Hit) -> Option<Removal> {
+    fn held<const W: usize>(&self, crew: &Crew<W, D::Many<W>>, l: usize, hit: &Hit) -> Option<Removal> {
         let particle = &crew.lanes[l].particle;
-        let here = self.properties(crew.here[l], crew.time[l], hit.meeting.position);
+        let here = self.properties(crew.here.get(l), crew.time[l], hit.meeting.position);
         let fluid = Fluid { density: here.density, viscosity: here.viscosity };
         law_of(self.behaviors.get(hit.wall)?, particle.injection)?.removal(particle.diameter, &fluid).ok()?
     }

@@ -6,7 +6,7 @@ use super::crew::Crew;
 use super::lane::Lane;
 use super::meeting::{After, put, record};
 use super::walk::{finish, lose};
-use crate::domain::{Domain, Hit};
+use crate::domain::{Domain, Hit, Pieces};
 use crate::geometry::Meeting;
 use crate::record::{Event, ParticleFate, Sink};
 use crate::vector::{Vec3, dot, norm, sub};
@@ -19,13 +19,13 @@ impl<D: Domain> Walk<'_, D> {
     /// The contact motion of a lane whose bounce dies.
     pub(super) fn contact<'b, const W: usize>(
         &'b self,
-        crew: &Crew<W, D::Here>,
+        crew: &Crew<W, D::Many<W>>,
         l: usize,
         hit: &Hit,
         after: &After,
     ) -> Contact<'b, D> {
         let motion = Motion { x: hit.meeting.position, v: after.velocity, spin: after.spin };
-        let place = (crew.here[l], crew.time[l]);
+        let place = (crew.here.get(l), crew.time[l]);
         let injection = crew.lanes[l].particle.injection;
         let (wall, normal) = (hit.wall, hit.meeting.normal);
         Contact::new(*self, crew.bodies.one(l), injection, place, motion, wall, normal, crew.steps[l])
@@ -35,7 +35,7 @@ impl<D: Domain> Walk<'_, D> {
     #[inline(never)]
     pub(super) fn stay<const W: usize>(
         &self,
-        crew: &mut Crew<W, D::Here>,
+        crew: &mut Crew<W, D::Many<W>>,
         l: usize,
         mut contact: Contact<'_, D>,
         sink: &mut dyn Sink,
@@ -100,7 +100,7 @@ impl<D: Domain> Walk<'_, D> {
     #[inline(never)]
     pub(super) fn follow_pressed<const W: usize>(
         &self,
-        crew: &mut Crew<W, D::Here>,
+        crew: &mut Crew<W, D::Many<W>>,
         l: usize,
         hit: &Hit,
         after: &After,
@@ -157,7 +157,7 @@ impl<D: Domain> Walk<'_, D> {
     /// goes on.
     fn strike<const W: usize>(
         &self,
-        crew: &mut Crew<W, D::Here>,
+        crew: &mut Crew<W, D::Many<W>>,
         l: usize,
         contact: &mut Contact<'_, D>,
         hit: &Hit,
@@ -175,7 +175,7 @@ impl<D: Domain> Walk<'_, D> {
     /// Gives a lane what such an impact left, and the impact its row.
     fn struck<const W: usize>(
         &self,
-        crew: &mut Crew<W, D::Here>,
+        crew: &mut Crew<W, D::Many<W>>,
         l: usize,
         hit: &Hit,
         before: &Motion,
@@ -189,7 +189,7 @@ impl<D: Domain> Walk<'_, D> {
     /// Brings a lane up to its contact motion.
     fn bring<const W: usize>(
         &self,
-        crew: &mut Crew<W, D::Here>,
+        crew: &mut Crew<W, D::Many<W>>,
         l: usize,
         contact: &Contact<'_, D>,
         sink: &mut dyn Sink,
@@ -198,12 +198,13 @@ impl<D: Domain> Walk<'_, D> {
             crew.lanes[l].strayed = true;
             sink.strayed();
         }
-        (crew.time[l], crew.here[l], crew.steps[l]) = (contact.time, contact.here, contact.steps);
+        crew.here.set(l, contact.here);
+        (crew.time[l], crew.steps[l]) = (contact.time, contact.steps);
         put(crew, l, contact.motion.x, contact.motion.v, contact.motion.spin);
     }
 
     /// A lane flies again.
-    fn fly_on<const W: usize>(&self, crew: &mut Crew<W, D::Here>, l: usize, since: f64) {
+    fn fly_on<const W: usize>(&self, crew: &mut Crew<W, D::Many<W>>, l: usize, since: f64) {
         if crew.time[l] > since {
             crew.lanes[l].standing = 0;
         }
@@ -217,7 +218,7 @@ impl<D: Domain> Walk<'_, D> {
     /// was, the motion's and what the forces did, what friction took and what is left.
     fn end_row<const W: usize>(
         &self,
-        crew: &Crew<W, D::Here>,
+        crew: &Crew<W, D::Many<W>>,
         l: usize,
         contact: &Contact<'_, D>,
         (began, ended): (Motion, Motion),

@@ -6,7 +6,7 @@
 use super::Walk;
 use super::crew::{Crew, motion_of};
 use super::walk::finish;
-use crate::domain::Domain;
+use crate::domain::{Domain, Pieces};
 use crate::force::Drag;
 use crate::geometry::{Shape, Wall};
 use crate::record::{ParticleFate, Sink};
@@ -26,7 +26,12 @@ const RELAXED: f64 = 1e-9;
 
 impl<D: Domain> Walk<'_, D> {
     /// Ends a lane that nothing can happen to any more; whether it did.
-    pub(super) fn is_done<const W: usize>(&self, crew: &mut Crew<W, D::Here>, l: usize, sink: &mut dyn Sink) -> bool {
+    pub(super) fn is_done<const W: usize>(
+        &self,
+        crew: &mut Crew<W, D::Many<W>>,
+        l: usize,
+        sink: &mut dyn Sink,
+    ) -> bool {
         if self.has_chance() {
             return false;
         }
@@ -47,7 +52,7 @@ impl<D: Domain> Walk<'_, D> {
         }
         let weight = crew.bodies.weight.map(|w| w[l]);
         let drag = (self.dynamics.forces.drag != Drag::None).then(|| {
-            let u = self.domain.velocities(&[crew.here[l]], &[crew.time[l]], &x.map(|c| [c]));
+            let u = self.domain.velocities(&D::Many::all(crew.here.get(l)), &[crew.time[l]], &x.map(|c| [c]));
             (u.map(|c| c[0]), 1.0 / crew.bodies.drag_rate[l])
         });
         let free = Free { v, weight, drag };

@@ -6,7 +6,7 @@ use super::ahead::Met;
 use super::crew::{Crew, motion_of};
 use super::lane::{self, Lane};
 use super::{Behavior, Particle, Settings, meeting};
-use crate::domain::{Carry, Domain, Next};
+use crate::domain::{Carry, Domain, Edges, Next, Pieces};
 use crate::dynamics::{Bodies, Dynamics};
 use crate::flow::cells::carry_spin;
 use crate::force::Sphere;
@@ -59,7 +59,7 @@ pub(super) const SHORT: f64 = 1e-3;
 pub(super) struct Acting<'a, const W: usize, D: Domain> {
     pub dynamics: &'a Dynamics,
     pub domain: &'a D,
-    pub here: &'a [D::Here; W],
+    pub here: &'a D::Many<W>,
     pub bodies: &'a Bodies<W>,
 }
 
@@ -73,7 +73,7 @@ impl<const W: usize, D: Domain> Derivative<W> for Acting<'_, W, D> {
 impl<D: Domain> Walk<'_, D> {
     #[inline(always)]
     pub(super) fn run_lanes<const W: usize>(&self, particles: &mut dyn Iterator<Item = Particle>, sink: &mut dyn Sink) {
-        let mut crew = Crew::<W, D::Here>::idle(D::NOWHERE);
+        let mut crew = Crew::<W, D::Many<W>>::idle(D::Many::all(D::NOWHERE));
         let place = self.dynamics.need_place(self.domain);
         let control = Control { tolerance: self.per_step(), spins: self.dynamics.spins(), place };
         let mut met = [Met::NOTHING; W];
@@ -110,7 +110,8 @@ impl<D: Domain> Walk<'_, D> {
             }
             self.refresh(&mut crew);
             self.try_steps(&mut crew, control);
-            let ahead = self.domain.look(&crew.here, &crew.motion.x, &crew.step.path, &crew.bodies.radius);
+            let mut edges = Edges::NONE;
+            let ahead = self.domain.look(&crew.here, &crew.motion.x, &crew.step.path, &crew.bodies.radius, &mut edges);
             let mut factor = [0.0; W];
             for l in 0..W {
                 factor[l] = growth(crew.step.error_squared[l], control.place);
@@ -128,6 +129,12 @@ impl<D: Domain> Walk<'_, D> {
             while let Some(l) = take_lowest(&mut due) {
                 self.is_done(&mut crew, l, sink);
             }
+            if D::SIDE_BY_SIDE {
+                let crossed = self.cross_together(&mut crew, &edges, &rest, &factor);
+                for l in 0..W {
+                    rest[l] &= !crossed[l];
+                }
+            }
             let found = self.find_first(&crew, &ahead, &rest, &mut met);
             let mut rest = bits(&rest);
             while let Some(l) = take_lowest(&mut rest) {
@@ -139,7 +146,7 @@ impl<D: Domain> Walk<'_, D> {
 
     /// Puts a particle into a lane; one that has no time to fly ends at once.
     #[inline(always)]
-    fn begin<const W: usize>(&self, crew: &mut Crew<W, D::Here>, l: usize, particle: Particle, sink: &mut dyn Sink) {
+    fn begin<const W: usize>(&self, crew: &mut Crew<W, D::Many<W>>, l: usize, particle: Particle, sink: &mut dyn Sink) {
         let sphere = Sphere { diameter: particle.diameter, density: particle.density };
         self.dynamics.body(l, sphere, &mut crew.bodies);
         crew.follows[l] = self.dynamics.follows(&sphere);
@@ -150,9 +157,9 @@ impl<D: Domain> Walk<'_, D> {
         }
         let trace = sink.start(&particle);
         crew.lanes[l] = Lane::new(particle, trace);
-        crew.here[l] = self.domain.enter(particle.time, particle.position);
+        crew.here.set(l, self.domain.enter(particle.time, particle.position));
         self.stray(crew, l, sink);
-        let outside = self.domain.is_lost(crew.here[l]);
+        let outside = self.domain.is_lost(crew.here.get(l));
         (crew.time[l], crew.stop[l], crew.steps[l]) = (particle.time, self.settings.until, 0);
         (crew.busy[l], crew.quiet[l]) = (true, mask(!trace && !self.has_chance()));
         if particle.time >= self.settings.until {
@@ -183,8 +190,8 @@ impl<D: Domain> Walk<'_, D> {
     }
 
     /// Tells once of a sphere that is where nothing is known of the fluid.
-    pub(super) fn stray<const W: usize>(&self, crew: &mut Crew<W, D::Here>, l: usize, sink: &mut dyn Sink) {
-        if !crew.lanes[l].strayed && self.domain.is_beyond(crew.here[l]) {
+    pub(super) fn stray<const W: usize>(&self, crew: &mut Crew<W, D::Many<W>>, l: usize, sink: &mut dyn Sink) {
+        if !crew.lanes[l].strayed && self.domain.is_beyond(crew.here.get(l)) {
             crew.lanes[l].strayed = true;
             sink.strayed();
         }
@@ -197,7 +204,7 @@ impl<D: Domain> Walk<'_, D> {
     /// A first trial step, s: what the tolerance is likely to allow where forces change over the time in which they
     /// change the speed.
     #[inline(always)]
-    pub(super) fn first_step<const W: usize>(&self, crew: &Crew<W, D::Here>, l: usize) -> f64 {
+    pub(super) fn first_step<const W: usize>(&self, crew: &Crew<W, D::Many<W>>, l: usize) -> f64 {
         let (mut speed, mut change) = (0.0f64, 0.0f64);
         for c in 0..3 {
             speed = speed.max(crew.motion.v[c][l].abs());
@@ -213,7 +220,7 @@ impl<D: Domain> Walk<'_, D> {
 
     /// After a blow or a new gust the drag of a sphere that follows the fluid must be seen to act first: shortens the next step.
     #[inline(always)]
-    pub(super) fn begin_anew<const W: usize>(&self, crew: &mut Crew<W, D::Here>, l: usize) {
+    pub(super) fn begin_anew<const W: usize>(&self, crew: &mut Crew<W, D::Many<W>>, l: usize) {
         if crew.follows[l] {
             let share = 4.0 * (self.per_step() * 1e3).sqrt().sqrt();
             let short = share / crew.bodies.drag_rate[l];
@@ -223,7 +230,7 @@ impl<D: Domain> Walk<'_, D> {
 
     /// Rates of the lanes whose motion was changed. Where all come in one go, the others get the bits they have.
     #[inline(always)]
-    fn refresh<const W: usize>(&self, crew: &mut Crew<W, D::Here>) {
+    fn refresh<const W: usize>(&self, crew: &mut Crew<W, D::Many<W>>) {
         if !crew.stale.contains(&true) {
             return;
         }
@@ -240,9 +247,9 @@ impl<D: Domain> Walk<'_, D> {
     }
 
     #[inline(always)]
-    fn refresh_one<const W: usize>(&self, crew: &mut Crew<W, D::Here>, l: usize) {
+    fn refresh_one<const W: usize>(&self, crew: &mut Crew<W, D::Many<W>>, l: usize) {
         let (x, v, spin) = motion_of(&crew.motion, l);
-        let rates = self.rates_at((crew.here[l], crew.time[l]), &crew.bodies.one(l), x, v, spin);
+        let rates = self.rates_at((crew.here.get(l), crew.time[l]), &crew.bodies.one(l), x, v, spin);
         for c in 0..3 {
             crew.rates.a[c][l] = rates.a[c][0];
             crew.rates.alpha[c][l] = rates.alpha[c][0];
@@ -262,18 +269,18 @@ impl<D: Domain> Walk<'_, D> {
         let column = |v: Vec3| [[v[0]], [v[1]], [v[2]]];
         let one = Motion::<1> { x: column(x), v: column(v), spin: column(spin) };
         let mut rates = Rates::ZERO;
-        self.dynamics.rates(self.domain, &[here], &[time], body, &one, &mut rates);
+        self.dynamics.rates(self.domain, &D::Many::all(here), &[time], body, &one, &mut rates);
         rates
     }
 
     /// The longest steps worth trying, where the flow has pieces.
     #[inline(always)]
-    fn limit<const W: usize>(&self, crew: &mut Crew<W, D::Here>) {
+    fn limit<const W: usize>(&self, crew: &mut Crew<W, D::Many<W>>) {
+        crew.longest = self.domain.longest_all(&crew.here, &crew.motion.x, &crew.motion.v);
         for l in 0..W {
-            let (x, v, _) = motion_of(&crew.motion, l);
             // next to an edge that it hardly approaches a straight path says nothing: the step finds where it crosses
             let least = least_step(crew.time[l]).max(LEAST_SHARE * crew.next[l]);
-            crew.longest[l] = self.domain.longest(crew.here[l], x, v).max(least);
+            crew.longest[l] = crew.longest[l].max(least);
         }
     }
 
@@ -281,7 +288,7 @@ impl<D: Domain> Walk<'_, D> {
     #[inline(always)]
     fn advance<const W: usize>(
         &self,
-        crew: &mut Crew<W, D::Here>,
+        crew: &mut Crew<W, D::Many<W>>,
         l: usize,
         met: &Met<D::Here>,
         factor: f64,
@@ -325,7 +332,7 @@ impl<D: Domain> Walk<'_, D> {
     #[inline(never)]
     fn cross<const W: usize>(
         &self,
-        crew: &mut Crew<W, D::Here>,
+        crew: &mut Crew<W, D::Many<W>>,
         l: usize,
         (theta, into, carry): (f64, D::Here, Option<&Carry>),
         met: &Met<D::Here>,
@@ -346,8 +353,8 @@ impl<D: Domain> Walk<'_, D> {
         let lane = &mut crew.lanes[l];
         lane.round = if theta < NO_WAY || crew.time[l] == before { lane.round + 1 } else { 0 };
         let round = lane.round > ROUND;
-        let left = crew.here[l];
-        crew.here[l] = if round { self.domain.enter_ahead(into, met.position, met.velocity) } else { into };
+        let left = crew.here.get(l);
+        crew.here.set(l, if round { self.domain.enter_ahead(into, met.position, met.velocity) } else { into });
         self.stray(crew, l, sink);
         let (mut x, mut v, mut spin) = (met.position, met.velocity, spin);
         if let Some(carry) = carry {
@@ -361,7 +368,7 @@ impl<D: Domain> Walk<'_, D> {
             }
         }
         meeting::put(crew, l, x, v, spin);
-        if self.domain.is_lost(crew.here[l]) || crew.lanes[l].round > LOST {
+        if self.domain.is_lost(crew.here.get(l)) || crew.lanes[l].round > LOST {
             return lose(crew, l, self.domain.cell(left), sink);
         }
         let lane = &mut crew.lanes[l];
@@ -383,14 +390,14 @@ impl<D: Domain> Walk<'_, D> {
 
     /// The spin at θ of a lane's step, rad/s.
     #[inline(always)]
-    pub(super) fn spin_at<const W: usize>(&self, crew: &Crew<W, D::Here>, l: usize, theta: f64) -> Vec3 {
+    pub(super) fn spin_at<const W: usize>(&self, crew: &Crew<W, D::Many<W>>, l: usize, theta: f64) -> Vec3 {
         let spin = motion_of(&crew.motion, l).2;
         if self.dynamics.spins() { add(spin, evaluate(&lane::points(&crew.step.twist, l), theta)) } else { spin }
     }
 
     /// Takes the whole step of one lane.
     #[inline(always)]
-    fn accept<const W: usize>(&self, crew: &mut Crew<W, D::Here>, l: usize, factor: f64, sink: &mut dyn Sink) {
+    fn accept<const W: usize>(&self, crew: &mut Crew<W, D::Many<W>>, l: usize, factor: f64, sink: &mut dyn Sink) {
         let h = crew.h[l];
         if crew.lanes[l].trace {
             lane::trace(crew, l, 1.0, sink);
@@ -427,15 +434,15 @@ pub(super) fn least_step(time: f64) -> f64 {
 }
 
 /// Ends a lane's particle whose place was lost beyond a cell of a mesh.
-pub(super) fn lose<const W: usize, H>(crew: &mut Crew<W, H>, l: usize, cell: Option<u32>, sink: &mut dyn Sink) {
+pub(super) fn lose<const W: usize, P>(crew: &mut Crew<W, P>, l: usize, cell: Option<u32>, sink: &mut dyn Sink) {
     crew.lanes[l].lost_from = cell;
     finish(crew, l, ParticleFate::Stuck, None, sink);
 }
 
 /// Tells the sink how a lane's particle ended; the lane is free then.
 #[inline(always)]
-pub(super) fn finish<const W: usize, H>(
-    crew: &mut Crew<W, H>,
+pub(super) fn finish<const W: usize, P>(
+    crew: &mut Crew<W, P>,
     l: usize,
     fate: ParticleFate,
     wall: Option<usize>,

@@ -27,8 +27,8 @@ impl Locator {
                     let (a, b) = (cells.cut.first[*f as usize], cells.cut.first[*f as usize + 1]);
                     cells.cut.triangles[a as usize..b as usize].iter().flatten()
                 });
-                let around = Bounds::around(triangles.map(|p| cells.flat(cells.points[*p as usize])));
-                let around = around.with(cells.flat(cells.points[cells.centre(cell)]));
+                let around = Bounds::around(triangles.map(|p| cells.flat(cells.nodes[*p as usize].place)));
+                let around = around.with(cells.flat(cells.nodes[cells.centre(cell)].place));
                 around.wider(1e-9 * (0..3).map(|c| around.max[c] - around.min[c]).fold(0.0, f64::max))
             })
             .collect();

@@ -52,7 +52,7 @@ impl NearWalls {
             }
             [nearest.0, nearest.1]
         };
-        Some(Self { nodes: cells.points.par_iter().map(|x| at(*x)).collect() })
+        Some(Self { nodes: cells.nodes.par_iter().map(|node| at(node.place)).collect() })
     }
 
     /// Adds what is known of the walls.
@@ -76,12 +76,12 @@ impl Cells {
 
     fn friction(&self, triangle: u32, nu: f64) -> f64 {
         let (corners, centre) = self.corners(2 * triangle, self.cut.cell(2 * triangle));
-        let [a, b, c] = corners.map(|p| self.points[p]);
+        let [a, b, c] = corners.map(|p| self.nodes[p].place);
         let Some(normal) = unit(cross(sub(b, a), sub(c, a))) else { return 0.0 };
-        let y = dot(sub(self.points[centre], a), normal).abs();
-        let wall = corners.map(|p| self.velocity[p]);
+        let y = dot(sub(self.nodes[centre].place, a), normal).abs();
+        let wall = corners.map(|p| self.nodes[p].velocity);
         let wall = [0, 1, 2].map(|i| (wall[0][i] + wall[1][i] + wall[2][i]) / 3.0);
-        let slip = sub(self.velocity[centre], wall);
+        let slip = sub(self.nodes[centre].velocity, wall);
         let along = norm(sub(slip, scale(normal, dot(slip, normal))));
         if y <= 0.0 {
             return 0.0;

@@ -7,8 +7,7 @@
 
 use super::beyond::Plane;
 use super::cut::Cut;
-use super::tetrahedron::FLAT;
-use crate::vector::{Vec3, cross, dot, norm, sub};
+use crate::vector::{norm, sub};
 use carom_cfd::{Mesh, PatchKind};
 
 /// Along the plane, this share of an edge's length is none.
@@ -73,23 +72,10 @@ impl Strips {
         Some(())
     }
 
-    /// The vectors dual to the corners of a tetrahedron from the cell's centre, all put into the plane; `None` where it is not used or
-    /// flat.
+    /// The corner of a tetrahedron's triangle that is alone on its column; 3 where the tetrahedron is not used.
     #[inline(always)]
-    pub fn dual(&self, tet: u32, plane: &Plane, edges: [Vec3; 3]) -> Option<[Vec3; 3]> {
-        let single = usize::from(self.alone[(tet >> 1) as usize]);
-        if single >= 3 {
-            return None;
-        }
-        let (p, q) = (plane.along(edges[single]), plane.along(edges[(single + 1) % 3]));
-        let (to_p, to_q) = (cross(q, plane.across), cross(plane.across, p));
-        let area = dot(p, to_p);
-        if area.abs() <= FLAT * (dot(p, p) * dot(q, q)).sqrt() {
-            return None;
-        }
-        let mut dual = [to_q.map(|c| 0.5 * c / area); 3];
-        dual[single] = to_p.map(|c| c / area);
-        Some(dual)
+    pub fn alone(&self, tet: u32) -> u64 {
+        u64::from(self.alone[(tet >> 1) as usize])
     }
 }
 
@@ -131,6 +117,7 @@ mod tests {
     use super::super::tests::{Dice, shaken, with_cell_velocity};
     use super::super::{Cells, Cut};
     use super::*;
+    use crate::vector::Vec3;
     use carom_cfd::block::Kind;
     use carom_cfd::geometry::{base_points, cell_centres_and_volumes, face_centres_and_areas};
     use carom_cfd::{Field, Snapshot};
@@ -189,7 +176,7 @@ mod tests {
                     // the middle of their common side, from the cell's centre to a column
                     let corners = cells.corners(here.id, here.cell).0;
                     let end = (0..3).find(|i| here.dual[*i] != here.dual[side]).unwrap();
-                    let end = cells.flat(cells.points[corners[end]]);
+                    let end = cells.flat(cells.nodes[corners[end]].place);
                     let middle = [0, 1, 2].map(|c| 0.5 * (end[c] + here.origin[c]));
                     for at in [here, &next].map(|t| t.coordinates(middle)) {
                         let least = at.into_iter().fold(f64::INFINITY, f64::min);

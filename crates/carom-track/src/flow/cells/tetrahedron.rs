@@ -1,7 +1,7 @@
 //! A tetrahedron a sphere is in, and the fluid's velocity there, linear in the place.
 
 use crate::geometry::{Bernstein, Path};
-use crate::vector::{Vec3, cross, dot, sub};
+use crate::vector::{Vec3, dot, sub};
 use std::fmt;
 
 /// What a sphere keeps of the tetrahedron it is in: made when it enters, so that steps within ask nothing of the mesh.
@@ -34,15 +34,6 @@ impl fmt::Debug for Tetrahedron {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         write!(f, "tetrahedron {}", self.id)
     }
-}
-
-/// The vectors dual to three edges; `None` where they are flat.
-#[inline(always)]
-pub(super) fn dual(edges: [Vec3; 3]) -> Option<[Vec3; 3]> {
-    let normals = [cross(edges[1], edges[2]), cross(edges[2], edges[0]), cross(edges[0], edges[1])];
-    let volume = dot(edges[0], normals[0]);
-    let size = edges.iter().map(|e| dot(*e, *e)).product::<f64>().sqrt();
-    (volume.abs() > FLAT * size).then(|| normals.map(|n| n.map(|c| c / volume)))
 }
 
 impl Tetrahedron {
@@ -112,27 +103,6 @@ impl Tetrahedron {
             }
         }
         first
-    }
-
-    /// Whether a path by its control points surely stays inside.
-    #[inline(always)]
-    pub(crate) fn holds(&self, start: Vec3, points: &[Vec3; 5]) -> bool {
-        let at = self.coordinates(start);
-        let mut least = [0.0f64; 4];
-        for p in points {
-            let [a, b, c] = self.dual.map(|d| dot(d, *p));
-            for (least, change) in least.iter_mut().zip([a, b, c, -(a + b + c)]) {
-                *least = if change < *least { change } else { *least };
-            }
-        }
-        (0..4).all(|i| at[i] + least[i] > 0.0)
-    }
-
-    /// Distance of a point from the cell's centre, m; across a plane case there is none.
-    #[inline(always)]
-    pub(crate) fn distance(&self, x: Vec3) -> f64 {
-        let y = sub(x, self.origin);
-        dot(y, y).sqrt()
     }
 
     /// How soon a straight path leaves, s; infinite where it does not.

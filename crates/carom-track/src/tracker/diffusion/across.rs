@@ -5,7 +5,7 @@
 //! whole body could have had. Walls are looked for on each part where it is.
 
 use super::{Leg, lay};
-use crate::domain::{Carry, Domain, Hit, Next};
+use crate::domain::{Carry, Domain, Hit, Next, Pieces};
 use crate::flow::cells::carry_spin;
 use crate::geometry::Path;
 use crate::record::Sink;
@@ -37,12 +37,12 @@ impl<D: Domain> Walk<'_, D> {
     /// Ends a step of a lane where the space goes on elsewhere.
     pub(super) fn unfold<const W: usize>(
         &self,
-        crew: &mut Crew<W, D::Here>,
+        crew: &mut Crew<W, D::Many<W>>,
         l: usize,
         mut leg: Leg<D::Here>,
         sink: &mut dyn Sink,
     ) {
-        let to = self.follow(crew.here[l], crew.time[l], leg.path, crew.bodies.radius[l]);
+        let to = self.follow(crew.here.get(l), crew.time[l], leg.path, crew.bodies.radius[l]);
         let retried = to.hit.is_some() && !leg.smooth;
         if let Some(carry) = to.carry.filter(|_| !retried) {
             self.begin_elsewhere(crew, l, &mut leg, (to.begun, carry), sink);
@@ -94,7 +94,7 @@ impl<D: Domain> Walk<'_, D> {
     /// Puts a lane where its step goes on elsewhere, with the rest of that.
     fn begin_elsewhere<const W: usize>(
         &self,
-        crew: &mut Crew<W, D::Here>,
+        crew: &mut Crew<W, D::Many<W>>,
         l: usize,
         leg: &mut Leg<D::Here>,
         (begun, carry): (f64, Carry),
@@ -115,7 +115,7 @@ impl<D: Domain> Walk<'_, D> {
     }
 
     /// Carries a lane's sphere and what is remembered of it.
-    pub(super) fn carry<const W: usize>(&self, crew: &mut Crew<W, D::Here>, l: usize, carry: &Carry) {
+    pub(super) fn carry<const W: usize>(&self, crew: &mut Crew<W, D::Many<W>>, l: usize, carry: &Carry) {
         let (x, v, spin) = motion_of(&crew.motion, l);
         put(crew, l, carry.point(x), carry.vector(v), carry_spin(carry, spin));
         crew.lanes[l].chance.carry(carry);

@@ -9,7 +9,7 @@
 //! sample w along the way it is then on: along the true one w would change in no time at their start, which no parabola follows.
 
 use super::{Diffusion, LONGEST, Leg, SMOOTH};
-use crate::domain::Domain;
+use crate::domain::{Domain, Pieces};
 use crate::dynamics::Bodies;
 use crate::force::brownian::Relaxation;
 use crate::geometry::Path;
@@ -41,7 +41,7 @@ impl<D: Domain> Drawn<'_, '_, D> {
     #[inline(always)]
     fn to(&self, time: f64, x: Vec3) -> Vec3 {
         if self.walk.dynamics.is_plain(self.walk.domain) {
-            let u = self.walk.domain.velocities(&[self.here], &[time], &x.map(|c| [c]));
+            let u = self.walk.domain.velocities(&D::Many::all(self.here), &[time], &x.map(|c| [c]));
             let weight = column(&self.body.weight, 0);
             [0, 1, 2].map(|c| u[c][0] + weight[c] / self.rate)
         } else {
@@ -115,16 +115,16 @@ impl<D: Domain> Work for At<'_, '_, D> {
 impl<D: Domain> Walk<'_, D> {
     fn drawn<'a, const W: usize>(
         &'a self,
-        crew: &Crew<W, D::Here>,
+        crew: &Crew<W, D::Many<W>>,
         l: usize,
         body: &'a Bodies<1>,
         slow: Vec3,
     ) -> Drawn<'a, 'a, D> {
-        Drawn { walk: self, here: crew.here[l], body, rate: crew.lanes[l].diffusion.rate, slow }
+        Drawn { walk: self, here: crew.here.get(l), body, rate: crew.lanes[l].diffusion.rate, slow }
     }
 
     /// What the drag draws a lane's sphere to where its present jitter will have carried it, m/s.
-    pub(super) fn drift_here<const W: usize>(&self, crew: &Crew<W, D::Here>, l: usize, body: &Bodies<1>) -> Vec3 {
+    pub(super) fn drift_here<const W: usize>(&self, crew: &Crew<W, D::Many<W>>, l: usize, body: &Bodies<1>) -> Vec3 {
         let diffusion = &crew.lanes[l].diffusion;
         let x = add(column(&crew.motion.x, l), scale(diffusion.jitter, 1.0 / diffusion.rate));
         let at = |slow| run_scalar(At(self.drawn(crew, l, body, slow), crew.time[l], x));
@@ -136,7 +136,7 @@ impl<D: Domain> Walk<'_, D> {
     /// How that changes over a displacement `by` from the end `change` of a lane's step, m/s.
     pub(super) fn change_of_drift<const W: usize>(
         &self,
-        crew: &Crew<W, D::Here>,
+        crew: &Crew<W, D::Many<W>>,
         l: usize,
         body: &Bodies<1>,
         change: Vec3,
@@ -157,7 +157,7 @@ impl<D: Domain> Walk<'_, D> {
     /// A step of `h` (s) of a sphere that the drag draws to `drift`, without noise; `None` if it must be shorter.
     pub(super) fn glide<const W: usize>(
         &self,
-        crew: &mut Crew<W, D::Here>,
+        crew: &mut Crew<W, D::Many<W>>,
         l: usize,
         body: &Bodies<1>,
         drift: Vec3,

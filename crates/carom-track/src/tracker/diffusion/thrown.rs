@@ -1,7 +1,7 @@
 //! Spheres that are thrown, spin up or are large, without their noise: the steps of spheres that do not diffuse, one lane's.
 
 use super::Leg;
-use crate::domain::{Domain, Next};
+use crate::domain::{Domain, Next, Pieces};
 use crate::dynamics::Bodies;
 use crate::force::brownian::Relaxation;
 use crate::geometry::Path;
@@ -15,7 +15,7 @@ impl<D: Domain> Walk<'_, D> {
     /// A step of `h` (s) without noise, up to the edge of the piece; `None` if it must be shorter.
     pub(super) fn fly<const W: usize>(
         &self,
-        crew: &mut Crew<W, D::Here>,
+        crew: &mut Crew<W, D::Many<W>>,
         l: usize,
         body: &Bodies<1>,
         h: f64,
@@ -44,7 +44,7 @@ impl<D: Domain> Walk<'_, D> {
             carry: None,
             smooth: true,
         };
-        let leg = match self.domain.edge(crew.here[l], &path) {
+        let leg = match self.domain.edge(crew.here.get(l), &path) {
             Next::Longest(share) => {
                 crew.next[l] = h * share;
                 return None;
@@ -61,12 +61,12 @@ impl<D: Domain> Walk<'_, D> {
         Some(leg)
     }
 
-    fn attempt<const W: usize>(&self, crew: &Crew<W, D::Here>, l: usize, body: &Bodies<1>, h: f64) -> Step<1> {
+    fn attempt<const W: usize>(&self, crew: &Crew<W, D::Many<W>>, l: usize, body: &Bodies<1>, h: f64) -> Step<1> {
         let mut leant = *body;
         if self.drifts() {
             leant.eddy = [Some(crew.lanes[l].chance.midway(h))];
         }
-        let (here, time) = ([crew.here[l]], [crew.time[l]]);
+        let (here, time) = (D::Many::all(crew.here.get(l)), [crew.time[l]]);
         let one = |v: Vec3| v.map(|c| [c]);
         let (x, v, spin) = motion_of(&crew.motion, l);
         let start = Motion { x: one(x), v: one(v), spin: one(spin) };

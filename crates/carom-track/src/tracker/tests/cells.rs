@@ -94,6 +94,32 @@ fn a_box_of_cells_is_a_box() {
     }
 }
 
+#[test]
+fn any_company_and_any_instructions_give_the_same_bits() {
+    let mesh = domain(&with_velocity(shaken(Kind::Prisms, [5, 4, 3], 0.25, 9), rolls));
+    // in turn such that follow the fluid and such that do not
+    let mut spheres = starts(24, 3, 2.0);
+    for p in spheres.iter_mut().step_by(2) {
+        p.diameter = 4e-6;
+    }
+    let d = floating(Drag::SchillerNaumann);
+    let behaviors = vec![bounce(0.7); mesh.walls().len()];
+    let settings = Settings { until: 0.05, ..settings() };
+    let tracker = Tracker { domain: &mesh, dynamics: &d, behaviors: &behaviors, settings };
+    let run = |set, spheres: &[Particle]| {
+        let mut log = Log::default();
+        tracker.run_on(set, &mut spheres.iter().copied(), &mut log).unwrap();
+        log.ends.sort_by_key(|e| e.particle.number);
+        log.ends
+    };
+    let want: Vec<End> =
+        spheres.iter().flat_map(|p| run(carom::instructions::InstructionSet::Portable, &[*p])).collect();
+    assert!(want.iter().any(|e| e.steps > 20));
+    for set in carom::instructions::InstructionSet::available() {
+        assert_eq!(run(set, &spheres), want, "{set:?}");
+    }
+}
+
 /// A field of rolls that vanishes on no wall.
 fn rolls(x: Vec3) -> Vec3 {
     let wave = |s: f64| carom::math::sin_cos(std::f64::consts::TAU * s);
