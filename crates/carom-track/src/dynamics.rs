@@ -220,14 +220,14 @@ impl Dynamics {
         out.drag = rate;
     }
 
-    /// A bound on how hard the forces press a sphere at velocity `v` against a wall with that normal, m/s²; infinite where
+    /// A bound on how hard the forces press one of the spheres at velocity `v` against a wall with that normal, m/s²; infinite where
     /// none is at hand.
     #[inline(always)]
-    pub fn press_at_most<D: Domain>(
+    pub fn press_at_most<const W: usize, D: Domain>(
         &self,
         domain: &D,
         (here, time): (D::Here, f64),
-        body: &Bodies<1>,
+        (bodies, l): (&Bodies<W>, usize),
         x: Vec3,
         v: Vec3,
         normal: Vec3,
@@ -237,9 +237,9 @@ impl Dynamics {
         }
         let u = domain.velocities(&D::Many::all(here), &[time], &x.map(|c| [c]));
         let slip = [u[0][0] - v[0], u[1][0] - v[1], u[2][0] - v[2]];
-        let weight = body.weight.map(|w| w[0]);
+        let weight = [bodies.weight[0][l], bodies.weight[1][l], bodies.weight[2][l]];
         let speed = slip[0].abs() + slip[1].abs() + slip[2].abs();
-        let drag = body.drag_rate[0] * Drag::at_most(body.reynolds[0] * speed);
+        let drag = bodies.drag_rate[l] * Drag::at_most(bodies.reynolds[l] * speed);
         drag * dot(slip, normal).abs() - dot(weight, normal)
     }
 

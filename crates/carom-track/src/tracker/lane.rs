@@ -38,8 +38,8 @@ pub(super) struct Lane {
 
 impl Lane {
     /// No particle yet.
-    pub const IDLE: Self = Self::new(
-        Particle {
+    pub const IDLE: Self = Self {
+        particle: Particle {
             number: 0,
             injection: 0,
             diameter: 1.0,
@@ -50,22 +50,26 @@ impl Lane {
             velocity: [0.0; 3],
             spin: [0.0; 3],
         },
-        false,
-    );
+        impacts: 0,
+        standing: 0,
+        edges: 0,
+        round: 0,
+        fitted: false,
+        trace: false,
+        strayed: false,
+        lost_from: None,
+        chance: Chance::NONE,
+        diffusion: Diffusion::NONE,
+    };
 
-    pub const fn new(particle: Particle, trace: bool) -> Self {
-        Self {
-            particle,
-            impacts: 0,
-            standing: 0,
-            edges: 0,
-            round: 0,
-            fitted: false,
-            trace,
-            strayed: false,
-            lost_from: None,
-            chance: Chance::NONE,
-            diffusion: Diffusion::NONE,
+    /// Begins with a particle; what changes at random is cleared where anything does.
+    #[inline(always)]
+    pub fn begin(&mut self, particle: Particle, trace: bool, has_chance: bool) {
+        self.particle = particle;
+        (self.impacts, self.standing, self.edges, self.round) = (0, 0, 0, 0);
+        (self.fitted, self.trace, self.strayed, self.lost_from) = (false, trace, false, None);
+        if has_chance {
+            (self.chance, self.diffusion) = (Chance::NONE, Diffusion::NONE);
         }
     }
 

@@ -79,7 +79,8 @@ impl<D: Domain> Walk<'_, D> {
                 pressed = after.bounces && eddies && self.is_pressed_by_chance(crew, l, hit, &after);
             }
         }
-        if let Some(mode) = self.removes(crew, l, hit, after.event) {
+        let is_held = matches!(after.event, Event::Capture | Event::Settle);
+        if is_held && let Some(mode) = self.removes(crew, l, hit) {
             (after.velocity, after.spin) = (hit.wall_velocity, [0.0; 3]);
             contact = self.rolls_off(crew, l, hit, &after, mode);
             // where it is followed the impact is no end, nor is a removal counted
@@ -214,16 +215,29 @@ impl<D: Domain> Walk<'_, D> {
     fn settles<const W: usize>(&self, crew: &Crew<W, D::Many<W>>, l: usize, hit: &Hit, after: &After) -> bool {
         let n = hit.meeting.normal;
         let up = dot(sub(after.velocity, hit.wall_velocity), n);
-        let height = self.settings.settle_height.of(crew.bodies.radius[l]);
-        let limit = 2.0 * height;
+        let limit = 2.0 * self.settings.settle_height.of(crew.bodies.radius[l]);
         let along = sub(after.velocity, scale(n, up));
-        let (x, mut body) = (hit.meeting.position, crew.bodies.one(l));
-        let here = (crew.here.get(l), crew.time[l]);
+        let (here, x) = ((crew.here.get(l), crew.time[l]), hit.meeting.position);
         // a bound first, which costs no power
-        if up > 0.0 && up * up >= limit * self.dynamics.press_at_most(self.domain, here, &body, x, along, n).max(0.0) {
-            return false;
-        }
-        body.eddy = [None];
+        let bound = || self.dynamics.press_at_most(self.domain, here, (&crew.bodies, l), x, along, n);
+        !(up > 0.0 && up * up >= limit * bound().max(0.0)) && self.is_pressed_steadily(crew, l, hit, after)
+    }
+
+    /// The same, asked of the forces: few bounces are so low.
+    #[inline(never)]
+    fn is_pressed_steadily<const W: usize>(
+        &self,
+        crew: &Crew<W, D::Many<W>>,
+        l: usize,
+        hit: &Hit,
+        after: &After,
+    ) -> bool {
+        let n = hit.meeting.normal;
+        let up = dot(sub(after.velocity, hit.wall_velocity), n);
+        let height = self.settings.settle_height.of(crew.bodies.radius[l]);
+        let along = sub(after.velocity, scale(n, up));
+        let (here, x) = ((crew.here.get(l), crew.time[l]), hit.meeting.position);
+        let body = Bodies { eddy: [None], ..crew.bodies.one(l) };
         let press = self.press(here, &body, x, along, after.spin, n);
         if self.dynamics.brownian && press * height <= self.thermal_energy(&body) {
             // the molecules lift it higher than that again
@@ -232,7 +246,7 @@ impl<D: Domain> Walk<'_, D> {
         if press <= self.eddies_lift(here, &body, x, n) {
             return false;
         }
-        if up <= 0.0 { press > 0.0 } else { up * up < limit * press }
+        if up <= 0.0 { press > 0.0 } else { up * up < 2.0 * height * press }
     }
 
     /// Would the next bounce rise to no height that counts, as the present eddy pushes?

@@ -9,7 +9,6 @@ use super::crew::Crew;
 use super::meeting::{After, law_of};
 use super::{Behavior, Walk};
 use crate::domain::{Domain, Hit, Pieces};
-use crate::record::Event;
 use carom::removal::{Fluid, Mode, Removal};
 
 /// What takes spheres off a wall.
@@ -25,16 +24,7 @@ pub struct Reentrainment {
 
 impl<D: Domain> Walk<'_, D> {
     /// How the flow takes off a sphere that an impact would leave where it hit, if it does.
-    pub(super) fn removes<const W: usize>(
-        &self,
-        crew: &Crew<W, D::Many<W>>,
-        l: usize,
-        hit: &Hit,
-        event: Event,
-    ) -> Option<Mode> {
-        if !matches!(event, Event::Capture | Event::Settle) {
-            return None;
-        }
+    pub(super) fn removes<const W: usize>(&self, crew: &Crew<W, D::Many<W>>, l: usize, hit: &Hit) -> Option<Mode> {
         let Behavior::Removal(_, removal) = self.behaviors.get(hit.wall)? else { return None };
         let held = self.held(crew, l, hit)?;
         let flow = || self.domain.fluid(crew.here.get(l), crew.time[l], hit.meeting.position).friction_velocity;

@@ -165,7 +165,8 @@ impl<D: Domain> Walk<'_, D> {
         let before = contact.motion;
         crew.lanes[l].impacts += 1;
         let mut after = self.outcome(crew, l, hit, before.v, before.spin);
-        if let Some(mode) = self.removes(crew, l, hit, after.event) {
+        let is_held = matches!(after.event, Event::Capture | Event::Settle);
+        if is_held && let Some(mode) = self.removes(crew, l, hit) {
             after.event = Event::Remove(mode);
         }
         let stays = contact.goes_on(Motion { v: after.velocity, spin: after.spin, ..before });

@@ -4,7 +4,7 @@
 
 use super::ahead::Met;
 use super::crew::{Crew, motion_of};
-use super::lane::{self, Lane};
+use super::lane;
 use super::{Behavior, Particle, Settings, meeting};
 use crate::domain::{Carry, Domain, Edges, Next, Pieces};
 use crate::dynamics::{Bodies, Dynamics};
@@ -156,7 +156,7 @@ impl<D: Domain> Walk<'_, D> {
             crew.motion.spin[c][l] = particle.spin[c];
         }
         let trace = sink.start(&particle);
-        crew.lanes[l] = Lane::new(particle, trace);
+        crew.lanes[l].begin(particle, trace, self.has_chance());
         crew.here.set(l, self.domain.enter(particle.time, particle.position));
         self.stray(crew, l, sink);
         let outside = self.domain.is_lost(crew.here.get(l));
