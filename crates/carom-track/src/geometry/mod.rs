@@ -26,7 +26,7 @@ pub(crate) use faces::{Face, single_descents};
 pub(crate) use mesh::tree::{STACK, Tree};
 pub use mesh::{Mesh, Triangle};
 pub use nearness::{Nearness, Wandering};
-pub use path::{Path, evaluate};
+pub use path::{Path, evaluate, split};
 pub use plane::Plane;
 pub use room::Room;
 pub use walls::{ContactAt, Hit, Overlap, Support, Supports, Wall, Walls};

@@ -34,43 +34,17 @@ impl Path {
         })
     }
 
-    /// The part of the path up to θ, as a path (de Casteljau).
+    /// The part of the path up to θ, as a path.
     #[must_use]
     pub fn until(&self, theta: f64) -> Self {
-        let mut points = self.points;
-        for c in 0..3 {
-            let p = &self.points;
-            let mut row = [0.0, p[0][c], p[1][c], p[2][c], p[3][c], p[4][c]];
-            for top in (1..6).rev() {
-                for i in 0..top {
-                    row[i] += theta * (row[i + 1] - row[i]);
-                }
-                points[5 - top][c] = row[0];
-            }
-        }
-        Self { points, ..*self }
+        Self { points: split(&self.points, theta).0, ..*self }
     }
 
     /// The part of the path from θ on, as a path.
     #[must_use]
     pub fn from(&self, theta: f64) -> Self {
-        let mut points = self.points;
-        let mut begun = [0.0; 3];
-        for c in 0..3 {
-            let p = &self.points;
-            let mut row = [0.0, p[0][c], p[1][c], p[2][c], p[3][c], p[4][c]];
-            for top in (1..6).rev() {
-                for i in 0..top {
-                    row[i] += theta * (row[i + 1] - row[i]);
-                }
-                if top > 1 {
-                    points[top - 2][c] = row[top - 1];
-                }
-            }
-            begun[c] = row[0];
-            points.iter_mut().for_each(|p| p[c] -= begun[c]);
-        }
-        Self { start: add(self.start, begun), points }
+        let (until, points) = split(&self.points, theta);
+        Self { start: add(self.start, until[4]), points }
     }
 
     /// Position at θ, m.
@@ -92,6 +66,26 @@ impl Path {
         let p = &self.points;
         Bernstein([0.0, p[0][c], p[1][c], p[2][c], p[3][c], p[4][c]])
     }
+}
+
+/// The parts of a curve from zero with control points 1 to N: up to θ, and from there on relative to where it is then (de Casteljau).
+pub fn split<const N: usize>(points: &[Vec3; N], theta: f64) -> ([Vec3; N], [Vec3; N]) {
+    let (mut until, mut from) = (*points, *points);
+    for c in 0..3 {
+        let (mut first, mut rest) = (0.0, points.map(|p| p[c]));
+        for left in (0..N).rev() {
+            first += theta * (rest[0] - first);
+            for i in 0..left {
+                rest[i] += theta * (rest[i + 1] - rest[i]);
+            }
+            until[N - 1 - left][c] = first;
+            if left > 0 {
+                from[left - 1][c] = rest[left - 1];
+            }
+        }
+        from.iter_mut().for_each(|p| p[c] -= first);
+    }
+    (until, from)
 }
 
 /// A curve from zero with control points 1 to N, at θ.

@@ -232,18 +232,15 @@ impl<D: Domain> Walk<'_, D> {
         hit: &Hit,
         after: &After,
     ) -> bool {
-        let n = hit.meeting.normal;
-        let up = dot(sub(after.velocity, hit.wall_velocity), n);
         let height = self.settings.settle_height.of(crew.bodies.radius[l]);
-        let along = sub(after.velocity, scale(n, up));
-        let (here, x) = ((crew.here.get(l), crew.time[l]), hit.meeting.position);
         let body = Bodies { eddy: [None], ..crew.bodies.one(l) };
-        let press = self.press(here, &body, x, along, after.spin, n);
+        let (up, press) = self.pressed(crew, l, &body, hit, after);
         if self.dynamics.brownian && press * height <= self.thermal_energy(&body) {
             // the molecules lift it higher than that again
             return false;
         }
-        if press <= self.eddies_lift(here, &body, x, n) {
+        let here = (crew.here.get(l), crew.time[l]);
+        if press <= self.eddies_lift(here, &body, hit.meeting.position, hit.meeting.normal) {
             return false;
         }
         if up <= 0.0 { press > 0.0 } else { up * up < 2.0 * height * press }
@@ -258,25 +255,31 @@ impl<D: Domain> Walk<'_, D> {
         hit: &Hit,
         after: &After,
     ) -> bool {
-        let n = hit.meeting.normal;
-        let up = dot(sub(after.velocity, hit.wall_velocity), n);
         let radius = crew.bodies.radius[l];
         let height = self.settings.settle_height.of(radius).max(LOWEST * radius);
-        let along = sub(after.velocity, scale(n, up));
-        let here = (crew.here.get(l), crew.time[l]);
         let body = crew.bodies.one(l);
-        let press = self.press(here, &body, hit.meeting.position, along, after.spin, n);
+        let (up, press) = self.pressed(crew, l, &body, hit, after);
         if self.dynamics.brownian && press * height <= self.thermal_energy(&body) {
             return false;
         }
         press > 0.0 && up * up < 2.0 * height * press
     }
 
-    /// The acceleration with which the forces on `body` press it against a wall, m/s².
-    #[inline(always)]
-    fn press(&self, here: (D::Here, f64), body: &Bodies<1>, x: Vec3, v: Vec3, spin: Vec3, normal: Vec3) -> f64 {
-        let a = self.rates_at(here, body, x, v, spin).a;
-        -(normal[0] * a[0][0] + normal[1] * a[1][0] + normal[2] * a[2][0])
+    /// The speed at which a sphere leaves a wall, m/s, and the acceleration with which the forces on it as `body` press it back, m/s².
+    fn pressed<const W: usize>(
+        &self,
+        crew: &Crew<W, D::Many<W>>,
+        l: usize,
+        body: &Bodies<1>,
+        hit: &Hit,
+        after: &After,
+    ) -> (f64, f64) {
+        let n = hit.meeting.normal;
+        let up = dot(sub(after.velocity, hit.wall_velocity), n);
+        let along = sub(after.velocity, scale(n, up));
+        let here = (crew.here.get(l), crew.time[l]);
+        let a = self.rates_at(here, body, hit.meeting.position, along, after.spin).a;
+        (up, -(n[0] * a[0][0] + n[1] * a[1][0] + n[2] * a[2][0]))
     }
 
     /// The acceleration with which eddies of the usual strength lift a sphere off a wall, m/s².

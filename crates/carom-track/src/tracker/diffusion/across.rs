@@ -7,7 +7,7 @@
 use super::{Leg, lay};
 use crate::domain::{Carry, Domain, Hit, Next, Pieces};
 use crate::flow::cells::carry_spin;
-use crate::geometry::Path;
+use crate::geometry::{Path, split};
 use crate::record::Sink;
 use crate::tracker::Walk;
 use crate::tracker::crew::{Crew, motion_of};
@@ -105,7 +105,7 @@ impl<D: Domain> Walk<'_, D> {
             lane::trace(crew, l, begun, sink);
         }
         let (_, v, spin) = motion_of(&crew.motion, l);
-        let (until, from) = super::thrown::split(&leg.twist, begun);
+        let (until, from) = split(&leg.twist, begun);
         put(crew, l, leg.path.at(begun), v, add(spin, until[3]));
         crew.time[l] += begun * leg.h;
         self.carry(crew, l, &carry);

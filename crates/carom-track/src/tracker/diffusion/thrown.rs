@@ -4,7 +4,7 @@ use super::Leg;
 use crate::domain::{Domain, Next, Pieces};
 use crate::dynamics::Bodies;
 use crate::force::brownian::Relaxation;
-use crate::geometry::Path;
+use crate::geometry::{Path, split};
 use crate::integrate::{Control, Motion, Rates, Step, growth, step};
 use crate::tracker::Walk;
 use crate::tracker::crew::{Crew, motion_of};
@@ -88,24 +88,4 @@ fn cut<H>(leg: Leg<H>, theta: f64, into: H, rate: f64) -> Leg<H> {
     let twist = split(&leg.twist, theta).0;
     let h = theta * leg.h;
     Leg { h, relaxation: Relaxation::over(rate * h), path, v, twist, into: Some(into), carry: None, smooth: true }
-}
-
-/// The parts of a curve from zero up to θ, and from there on relative to where it is then (de Casteljau).
-pub(super) fn split(points: &[Vec3; 4], theta: f64) -> ([Vec3; 4], [Vec3; 4]) {
-    let (mut until, mut from) = (*points, *points);
-    for c in 0..3 {
-        let p = points;
-        let mut row = [0.0, p[0][c], p[1][c], p[2][c], p[3][c]];
-        for top in (1..5).rev() {
-            for i in 0..top {
-                row[i] += theta * (row[i + 1] - row[i]);
-            }
-            until[4 - top][c] = row[0];
-            if top > 1 {
-                from[top - 2][c] = row[top - 1];
-            }
-        }
-        from.iter_mut().for_each(|p| p[c] -= row[0]);
-    }
-    (until, from)
 }
