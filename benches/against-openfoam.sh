@@ -5,7 +5,7 @@
 #   RUNS=9 CORE=0 CELLS=10 benches/against-openfoam.sh
 #
 # OpenFOAM runs twice: on a mesh of 20 cells along each edge (CELLS) with the settings its tutorials come with, and as fast
-# as it can be made on this case: one cell, no sub-steps. carom's command is built first; CAROM names another one.
+# as it can be made on this case: one cell, no sub-steps. Both then read the same stored vortex on the mesh. carom's command is built first; CAROM names another one.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -43,9 +43,19 @@ rm -r "$work/start"
 # dictionary CLASS NAME: what every file of OpenFOAM starts with
 dictionary() { echo "FoamFile { version 2.0; format ascii; class $1; object $2; }"; }
 
-# write_case FOLDER CELLS MAXCO INTERPOLATION [FUNCTIONS]: a case on a mesh of that many cells along each edge
+# the air's velocities in the cells: at rest, or a vortex that fills the box, at 2 m/s at most
+air() {
+    if [[ $1 == still ]]; then echo "uniform (0 0 0);"; return; fi
+    awk -v n="$2" 'BEGIN { pi = atan2(0, -1); printf "nonuniform List<vector> %d (\n", n * n * n
+        for (k = 0; k < n; k++) for (j = 0; j < n; j++) for (i = 0; i < n; i++) {
+            x = pi * (i + 0.5) / n; y = pi * (j + 0.5) / n
+            printf "(%.17g %.17g 0)\n", 2 * sin(x) * cos(y), -2 * cos(x) * sin(y) }
+        print ");" }'
+}
+
+# write_case FOLDER CELLS MAXCO INTERPOLATION AIR [FUNCTIONS]: a case on a mesh of that many cells along each edge
 write_case() {
-    local foam=$1 cells=$2 maxco=$3 interpolation=$4 functions=${5:-} write=1000 cloud=$1/0/lagrangian/kinematicCloud state=$1/0/uniform/lagrangian/kinematicCloud
+    local foam=$1 cells=$2 maxco=$3 interpolation=$4 air=$5 functions=${6:-} write=1000 cloud=$1/0/lagrangian/kinematicCloud state=$1/0/uniform/lagrangian/kinematicCloud
     if [[ -n $functions ]]; then write=$steps; fi
     mkdir -p "$cloud" "$state" "$foam/constant" "$foam/system"
     { dictionary dictionary blockMeshDict; cat <<END
@@ -72,7 +82,7 @@ END
       echo "rhoInf 1.2; transportModel Newtonian; nu 1.5e-5;"; } >"$foam/constant/transportProperties"
     { dictionary dictionary turbulenceProperties; echo "simulationType laminar;"; } >"$foam/constant/turbulenceProperties"
     { dictionary volVectorField U
-      echo "dimensions [0 1 -1 0 0 0 0]; internalField uniform (0 0 0);"
+      echo "dimensions [0 1 -1 0 0 0 0]; internalField $(air "$air" "$cells")"
       echo "boundaryField { walls { type fixedValue; value uniform (0 0 0); } }"; } >"$foam/0/U"
     { dictionary dictionary kinematicCloudProperties; cat <<END
 solution
@@ -144,9 +154,10 @@ END
 
 # --- hits, counted in runs that are not timed ----------------------------------------------------------------------
 
-# The two settings of OpenFOAM: cells along an edge, maxCo, interpolation of the fluid's velocity.
-tutorial=("$cells" 0.3 cellPoint)
-fastest=(1 1 cell)
+# The settings of OpenFOAM: cells along an edge, maxCo, interpolation of the air's velocity, the air.
+tutorial=("$cells" 0.3 cellPoint still)
+fastest=(1 1 cell still)
+vortex=("$cells" 0.3 cellPoint vortex)
 
 per_step() { awk -v n="$1" -v all="$((particles * steps))" 'BEGIN { printf "%.4f", n / all }'; }
 
@@ -158,7 +169,16 @@ hits_foam() {
     rm -r "$foam"
 }
 
-hits=$("$carom" run "$case" --json | awk -F'[:,]' '/"impacts"/ { n += $2 } END { print n }')
+hits_carom() { "$carom" run "$1" --json | awk -F'[:,]' '/"impacts"/ { n += $2 } END { print n }'; }
+
+# the vortex for both, and carom's case that reads it: the same spheres, the walls a patch of the mesh
+write_case "$work/vortex" "${vortex[@]}"
+sed -e "s|^kind = \"still\"|kind = \"openfoam\"\ncase = \"$work/vortex\"\ntime = 0|" -e 's/^box = .*/patch = "walls"/' -e '/^name = "box"/d' \
+    "$case" >"$work/vortex.toml"
+
+hits=$(hits_carom "$case")
+hits_vortex=$(hits_carom "$work/vortex.toml")
+hits_foam_vortex=$(hits_foam "${vortex[@]}")
 hits_tutorial=$(hits_foam "${tutorial[@]}")
 hits_fastest=$(hits_foam "${fastest[@]}")
 
@@ -187,16 +207,17 @@ write_case "$work/fastest" "${fastest[@]}"
 sed 's/^impacts = .*/impacts = true/' "$case" >"$work/impacts.toml"
 
 load() { cut -d' ' -f1-3 /proc/loadavg; }
-declare -A ns=([tutorial]="" [fastest]="" [carom]="" [written]="")
+declare -A ns=([tutorial]="" [fastest]="" [carom]="" [written]="" [vortex]="" [meshed]="")
 echo "machine: $(lscpu | sed -n 's/^Model name: *//p'), $(nproc) cores; load before: $(load)"
-row='%-5s %18s %18s %10s %22s\n'
-printf "$row" "" "OpenFOAM, tutorial" "OpenFOAM, fastest" carom "carom, impacts written"
+row='%-5s %18s %18s %10s %22s %18s %14s\n'
+printf "$row" "" "OpenFOAM, tutorial" "OpenFOAM, fastest" carom "carom, impacts written" "OpenFOAM, vortex" "carom, vortex"
 for ((run = 1; run <= runs; run++)); do
     a=$(time_foam "$work/tutorial") b=$(time_carom "$case") c=$(time_foam "$work/fastest")
     d=$(time_carom "$work/impacts.toml" --out "$work/out")
     rm -r "$work/out"
-    ns[tutorial]+="$a " ns[carom]+="$b " ns[fastest]+="$c " ns[written]+="$d "
-    printf "$row" "$run" "$a ns" "$c ns" "$b ns" "$d ns"
+    e=$(time_foam "$work/vortex") f=$(time_carom "$work/vortex.toml")
+    ns[tutorial]+="$a " ns[carom]+="$b " ns[fastest]+="$c " ns[written]+="$d " ns[vortex]+="$e " ns[meshed]+="$f "
+    printf "$row" "$run" "$a ns" "$c ns" "$b ns" "$d ns" "$e ns" "$f ns"
 done
 
 # median NUMBERS
@@ -218,6 +239,10 @@ $(line "OpenFOAM, as in tutorials" "${ns[tutorial]}" "$hits_tutorial")
 $(line "OpenFOAM, one cell" "${ns[fastest]}" "$hits_fastest")
 $(line "carom" "${ns[carom]}" "$hits")
 $(line "carom, impacts written" "${ns[written]}" "$hits")
+
+A vortex of at most 2 m/s, stored on $cells^3 cells, read by both: OpenFOAM over carom $(ratio "${ns[vortex]}" "${ns[meshed]}")
+$(line "OpenFOAM, as in tutorials" "${ns[vortex]}" "$hits_foam_vortex")
+$(line "carom" "${ns[meshed]}" "$hits_vortex")
 
 The same: the spheres' sizes, starts and velocities, digit for digit; the air, gravity and buoyancy; walls met by
 centres; e = 0.95 and a tangential loss of 5 %; one core.

@@ -42,6 +42,9 @@ pub trait Work: Sized {
     /// What it computes.
     type Output;
 
+    /// How many lanes it is laid out for, if it is: it has no copies for sets of other lanes. Who lays it out has asked what the processor has.
+    const LAID_OUT_FOR: Option<usize> = None;
+
     /// The work, with the multiply-add of the set; `LANES` numbers fill two of its vectors (1 where there are none to fill). Must be
     /// `#[inline(always)]`, and all it calls that is to be vectorised: what is not inlined is compiled for the plain machine.
     fn run<F: Fma, const LANES: usize>(self, f: F) -> Self::Output;
@@ -66,15 +69,14 @@ impl InstructionSet {
     }
 
     /// Does the work with these instructions, or with [`InstructionSet::Portable`] where the processor lacks them.
-    #[inline]
     pub fn run<W: Work>(self, work: W) -> W::Output {
         match self {
             #[cfg(target_arch = "x86_64")]
             // SAFETY: the processor has all that `avx512` is compiled for, as was just asked.
-            Self::Avx512 if x86::has_avx512() => unsafe { x86::avx512(work) },
+            Self::Avx512 if const { fits::<W>(16) } && x86::has_avx512() => unsafe { x86::avx512(work) },
             #[cfg(target_arch = "x86_64")]
             // SAFETY: the processor has all that `avx2` is compiled for, as was just asked.
-            Self::Avx2 if x86::has_avx2() => unsafe { x86::avx2(work) },
+            Self::Avx2 if const { fits::<W>(8) } && x86::has_avx2() => unsafe { x86::avx2(work) },
             #[cfg(target_arch = "aarch64")]
             Self::Neon => work.run::<_, 4>(crate::math::Fused),
             _ => work.run_portable(),
@@ -95,18 +97,29 @@ impl InstructionSet {
     }
 }
 
+/// Whether a copy of the work for so many lanes is one that may be asked for.
+const fn fits<W: Work>(lanes: usize) -> bool {
+    match W::LAID_OUT_FOR {
+        None => true,
+        Some(wanted) => wanted == lanes,
+    }
+}
+
 /// Work on single numbers, not on vectors (one impact): with the processor's fused multiply-add if there is one.
-#[inline]
+// without `inline`: a copy for each part of a crate that asks would be no faster
 pub fn run_scalar<W: Work>(work: W) -> W::Output {
+    run_fused(work, W::run_portable)
+}
+
+/// Likewise; what is done where there is none is the caller's, which may have it compiled already.
+#[inline]
+pub(crate) fn run_fused<W: Work>(work: W, otherwise: impl FnOnce(W) -> W::Output) -> W::Output {
     #[cfg(target_arch = "x86_64")]
     if x86::has_fma() {
         // SAFETY: the processor has what `fma` is compiled for, as was just asked.
         return unsafe { x86::fma(work) };
     }
-    #[cfg(target_arch = "aarch64")]
-    return work.run::<_, 1>(crate::math::Fused);
-    #[cfg(not(target_arch = "aarch64"))]
-    work.run_portable()
+    if cfg!(target_arch = "aarch64") { work.run::<_, 1>(crate::math::Fused) } else { otherwise(work) }
 }
 
 /// The questions and the copies stand side by side: a feature that is enabled in a copy is asked for in its question.

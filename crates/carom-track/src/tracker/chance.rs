@@ -5,9 +5,10 @@
 
 use super::Walk;
 use super::crew::{Crew, motion_of};
+use super::lane::Lane;
 use crate::domain::{Carry, Domain, Pieces};
 use crate::flow::{Fluid, Local};
-use crate::force::{Eddy, RandomWalk, Surroundings};
+use crate::force::{Eddy, RandomWalk, Sphere, Surroundings};
 use crate::random::{Purpose, Stream};
 use crate::vector::{Vec3, add, norm, sub};
 use carom::instructions::{Work, run_scalar};
@@ -98,7 +99,14 @@ impl<D: Domain> Walk<'_, D> {
     pub(super) fn renew<const W: usize>(&self, crew: &mut Crew<W, D::Many<W>>, l: usize, step: f64) {
         let mut changed = false;
         match &self.dynamics.random_walk {
-            Some(walk) => changed = self.renew_eddy(walk, crew, l, step),
+            Some(walk) => {
+                let (x, v, _) = motion_of(&crew.motion, l);
+                let place = (crew.here.get(l), crew.time[l], x);
+                changed = self.renew_eddy(walk, &mut crew.lanes[l], place, v, step);
+                if changed {
+                    crew.bodies.eddy[l] = Some(crew.lanes[l].chance.eddy);
+                }
+            }
             None => crew.lanes[l].chance.look = f64::INFINITY,
         }
         crew.stale[l] |= changed;
@@ -112,22 +120,21 @@ impl<D: Domain> Walk<'_, D> {
         crew.stop[l] = if next > time { self.settings.until.min(next) } else { self.settings.until };
     }
 
-    /// Ages the eddy; whether another one was met.
-    fn renew_eddy<const W: usize>(
+    /// Ages the eddy of a sphere that is at a place with velocity `v` (m/s), after a step (s); whether another one was met.
+    fn renew_eddy(
         &self,
         walk: &RandomWalk,
-        crew: &mut Crew<W, D::Many<W>>,
-        l: usize,
+        lane: &mut Lane,
+        (piece, time, x): (D::Here, f64, Vec3),
+        v: Vec3,
         step: f64,
     ) -> bool {
-        let (x, v, _) = motion_of(&crew.motion, l);
-        let (piece, time) = (crew.here.get(l), crew.time[l]);
         let properties = self.properties(piece, time, x);
         let nu = properties.kinematic_viscosity();
-        let tau = self.dynamics.relaxation_time_in(&properties, &crew.bodies.sphere[l]);
+        let sphere = Sphere { diameter: lane.particle.diameter, density: lane.particle.density };
+        let tau = self.dynamics.relaxation_time_in(&properties, &sphere);
         let fluid = |x| self.domain.fluid(piece, time, x);
         let here = || run_scalar(Around { walk, fluid, x, nu, tau });
-        let lane = &mut crew.lanes[l];
         let (number, chance) = (lane.particle.number, &mut lane.chance);
         // a plain walk's eddy lives as long as where it was met, once there is turbulence
         let place = if walk.drift || chance.place == Surroundings::CALM { here() } else { chance.place };
@@ -148,7 +155,6 @@ impl<D: Domain> Walk<'_, D> {
             });
             let gust = run_scalar(Gust { walk, fluid, x, nu, deviates: chance.eddy.deviates });
             chance.crossed = time + walk.crossing(chance.place.length, tau, norm(sub(gust, v)));
-            crew.bodies.eddy[l] = Some(chance.eddy);
         }
         let longest =
             if walk.drift { chance.eddy.longest_step(&chance.place) } else { chance.eddy.rest(&chance.place) };

@@ -18,8 +18,9 @@ mod stop;
 mod surface;
 
 use super::Walk;
+use super::cross::{NO_WAY, ROUND};
 use super::meeting::LOWEST;
-use super::walk::{NO_WAY, ROUND, least_step};
+use super::walk::least_step;
 use crate::domain::{Domain, Hit, Next};
 use crate::dynamics::Bodies;
 use crate::flow::cells::carry_spin;

@@ -12,7 +12,7 @@ use crate::domain::Domain;
 use crate::integrate::{Control, Lanes, Step, exponential, step};
 use crate::lanes::mask;
 use carom::instructions::Work;
-use carom::math::Fma;
+use carom::math::{Fma, Plain};
 
 impl<D: Domain> Walk<'_, D> {
     /// Tries the steps of all lanes.
@@ -47,6 +47,17 @@ struct Following<'a, 'b, const W: usize, D: Domain> {
 
 impl<const W: usize, D: Domain> Work for Following<'_, '_, W, D> {
     type Output = ();
+
+    const LAID_OUT_FOR: Option<usize> = Some(W);
+
+    #[inline(always)]
+    fn run_portable(self) {
+        if const { W == 1 } {
+            self.run::<_, 1>(Plain);
+        } else {
+            debug_assert!(false, "so many lanes are asked for where the set that they fill was found");
+        }
+    }
 
     #[inline(always)]
     fn run<F: Fma, const LANES: usize>(self, _: F) {

@@ -5,10 +5,9 @@
 use super::ahead::Met;
 use super::crew::{Crew, motion_of};
 use super::lane;
-use super::{Behavior, Particle, Settings, meeting};
-use crate::domain::{Carry, Domain, Edges, Next, Pieces};
+use super::{Behavior, Particle, Settings};
+use crate::domain::{Domain, Edges, Next, Pieces};
 use crate::dynamics::{Bodies, Dynamics};
-use crate::flow::cells::carry_spin;
 use crate::force::Sphere;
 use crate::geometry::evaluate;
 use crate::integrate::{Control, Derivative, Lanes, Motion, Rates, growth};
@@ -38,22 +37,8 @@ impl<D> Clone for Walk<'_, D> {
 
 /// Steps after which a sphere that goes on undisturbed is looked at again: it may never meet anything any more.
 const LOOK: u64 = 64;
-/// Edges met in a row without any time between them after which a sphere is led off the edge.
-pub(super) const MOST_EDGES: u32 = 8;
-/// Share of a step that is no way to get on.
-pub(super) const NO_WAY: f64 = 1e-9;
-/// Edges met in a row without getting on, as where pieces overlap, after which the piece is looked for anew.
-pub(super) const ROUND: u32 = 2 * MOST_EDGES;
-/// And after which the sphere is lost.
-const LOST: u32 = 64 * MOST_EDGES;
-
-/// Edges of pieces that spheres went across, for tests that count them.
-#[cfg(test)]
-pub(super) static CROSSED: std::sync::atomic::AtomicU64 = std::sync::atomic::AtomicU64::new(0);
 /// Share of the step that the tolerance allows which is always worth trying.
 pub(super) const LEAST_SHARE: f64 = 1.0 / 64.0;
-/// What is left of a step that leads off an edge.
-pub(super) const SHORT: f64 = 1e-3;
 
 /// The forces on the spheres of all lanes.
 pub(super) struct Acting<'a, const W: usize, D: Domain> {
@@ -73,6 +58,9 @@ impl<const W: usize, D: Domain> Derivative<W> for Acting<'_, W, D> {
 impl<D: Domain> Walk<'_, D> {
     #[inline(always)]
     pub(super) fn run_lanes<const W: usize>(&self, particles: &mut dyn Iterator<Item = Particle>, sink: &mut dyn Sink) {
+        if self.dynamics.brownian {
+            return self.run_diffusing(particles, sink);
+        }
         let mut crew = Crew::<W, D::Many<W>>::idle(D::Many::all(D::NOWHERE));
         let place = self.dynamics.need_place(self.domain);
         let control = Control { tolerance: self.per_step(), spins: self.dynamics.spins(), place };
@@ -88,14 +76,6 @@ impl<D: Domain> Walk<'_, D> {
             }
             if !working {
                 return;
-            }
-            if self.dynamics.brownian {
-                for l in 0..W {
-                    while crew.busy[l] {
-                        self.diffuse(&mut crew, l, sink);
-                    }
-                }
-                continue;
             }
             if !self.domain.is_one_piece() {
                 self.limit(&mut crew);
@@ -144,6 +124,19 @@ impl<D: Domain> Walk<'_, D> {
         }
     }
 
+    /// Spheres that diffuse go one by one: nearly each step has a length of its own, and draws.
+    #[inline(never)]
+    fn run_diffusing(&self, particles: &mut dyn Iterator<Item = Particle>, sink: &mut dyn Sink) {
+        let mut crew = Crew::<1, D::Many<1>>::idle(D::Many::all(D::NOWHERE));
+        for particle in particles {
+            self.begin(&mut crew, 0, particle, sink);
+            crew.lanes[0].diffusion = self.diffusion(&crew, 0);
+            while crew.busy[0] {
+                self.diffuse(&mut crew, 0, sink);
+            }
+        }
+    }
+
     /// Puts a particle into a lane; one that has no time to fly ends at once.
     #[inline(always)]
     fn begin<const W: usize>(&self, crew: &mut Crew<W, D::Many<W>>, l: usize, particle: Particle, sink: &mut dyn Sink) {
@@ -179,9 +172,6 @@ impl<D: Domain> Walk<'_, D> {
             return;
         }
         crew.next[l] = self.first_step(crew, l);
-        if self.dynamics.brownian {
-            crew.lanes[l].diffusion = self.diffusion(crew, l);
-        }
         if self.has_chance() {
             self.renew(crew, l, 0.0);
         }
@@ -325,66 +315,6 @@ impl<D: Domain> Walk<'_, D> {
                     crew.quiet[l] = mask(crew.lanes[l].is_quiet() && !self.has_chance());
                 }
             }
-        }
-    }
-
-    /// Ends a step of one lane at the edge of a piece, and puts it into the next one, carried over where the space goes on elsewhere.
-    #[inline(never)]
-    fn cross<const W: usize>(
-        &self,
-        crew: &mut Crew<W, D::Many<W>>,
-        l: usize,
-        (theta, into, carry): (f64, D::Here, Option<&Carry>),
-        met: &Met<D::Here>,
-        factor: f64,
-        sink: &mut dyn Sink,
-    ) {
-        #[cfg(test)]
-        CROSSED.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
-        let h = crew.h[l];
-        if crew.lanes[l].trace {
-            lane::trace(crew, l, theta, sink);
-        }
-        let spin = self.spin_at(crew, l, theta);
-        let before = crew.time[l];
-        crew.time[l] += theta * h;
-        crew.next[l] = crew.after(l, factor);
-        // led round and round where pieces overlap
-        let lane = &mut crew.lanes[l];
-        lane.round = if theta < NO_WAY || crew.time[l] == before { lane.round + 1 } else { 0 };
-        let round = lane.round > ROUND;
-        let left = crew.here.get(l);
-        crew.here.set(l, if round { self.domain.enter_ahead(into, met.position, met.velocity) } else { into });
-        self.stray(crew, l, sink);
-        let (mut x, mut v, mut spin) = (met.position, met.velocity, spin);
-        if let Some(carry) = carry {
-            (x, v, spin) = (carry.point(x), carry.vector(v), carry_spin(carry, spin));
-            crew.lanes[l].chance.carry(carry);
-            if let Some(eddy) = &mut crew.bodies.eddy[l] {
-                eddy.deviates = carry.vector(eddy.deviates);
-            }
-            if crew.lanes[l].trace {
-                sink.point(crew.lanes[l].particle.number, crew.time[l], x, v, spin);
-            }
-        }
-        meeting::put(crew, l, x, v, spin);
-        if self.domain.is_lost(crew.here.get(l)) || crew.lanes[l].round > LOST {
-            return lose(crew, l, self.domain.cell(left), sink);
-        }
-        let lane = &mut crew.lanes[l];
-        lane.fitted = false;
-        if crew.time[l] > before {
-            (lane.standing, lane.edges) = (0, 0);
-        } else {
-            lane.edges += 1;
-            if lane.edges > MOST_EDGES {
-                // held on the edge from both sides: a short step leads off it
-                crew.next[l] = (SHORT * crew.next[l]).max(least_step(crew.time[l]));
-            }
-        }
-        crew.quiet[l] = mask(lane.is_quiet() && !self.has_chance());
-        if theta > 0.0 && self.has_chance() {
-            self.renew(crew, l, theta * h);
         }
     }
 

@@ -4,8 +4,8 @@
 use super::impact::{Laws, Motion, Slid};
 use super::{Kernel, Tables};
 use crate::impact::{Impact, ImpactError, Outcome};
-use crate::instructions::{Work, run_scalar};
-use crate::math::{self, Fma};
+use crate::instructions::{Work, run_fused, run_scalar};
+use crate::math::{self, Fma, Plain};
 use crate::normal::adhesion;
 use crate::normal::damping::HertzDamping;
 use crate::normal::empirical::Lookup;
@@ -83,11 +83,36 @@ impl Kernel {
     #[inline]
     pub(crate) fn scalar_impact(&self, tables: &Tables, impact: &Impact) -> Result<Outcome, ImpactError> {
         match self.short() {
-            Some(ShortLaw::Elastic(law)) => run_scalar(OneImpact { kernel: self, law: &law, impact }),
-            Some(ShortLaw::ElasticPlastic(law)) => run_scalar(OneImpact { kernel: self, law: &law, impact }),
-            Some(ShortLaw::Given(law)) => run_scalar(OneImpact { kernel: self, law: &law, impact }),
-            None if self.scatter.is_none() => run_scalar(AnyImpact::<false> { kernel: self, tables, impact }),
-            None => run_scalar(AnyImpact::<true> { kernel: self, tables, impact }),
+            Some(ShortLaw::Elastic(law)) => self.one_impact(&law, tables, impact),
+            Some(ShortLaw::ElasticPlastic(law)) => self.one_impact(&law, tables, impact),
+            Some(ShortLaw::Given(law)) => self.one_impact(&law, tables, impact),
+            None => self.any_impact(tables, impact),
+        }
+    }
+
+    #[inline(always)]
+    fn one_impact<L: Laws>(&self, law: &L, tables: &Tables, impact: &Impact) -> Result<Outcome, ImpactError> {
+        run_fused(OneImpact { kernel: self, law, impact }, |_| self.plain_impact(tables, impact))
+    }
+
+    /// One impact by any law: compiled here, not in each crate that asks.
+    #[inline(never)]
+    fn any_impact(&self, tables: &Tables, impact: &Impact) -> Result<Outcome, ImpactError> {
+        if self.scatter.is_none() {
+            run_scalar(AnyImpact::<false> { kernel: self, tables, impact })
+        } else {
+            run_scalar(AnyImpact::<true> { kernel: self, tables, impact })
+        }
+    }
+
+    /// An impact by a short law without a fused multiply-add: likewise.
+    #[inline(never)]
+    fn plain_impact(&self, tables: &Tables, impact: &Impact) -> Result<Outcome, ImpactError> {
+        match self.short() {
+            Some(ShortLaw::Elastic(law)) => self.impact_by(Plain, &law, impact),
+            Some(ShortLaw::ElasticPlastic(law)) => self.impact_by(Plain, &law, impact),
+            Some(ShortLaw::Given(law)) => self.impact_by(Plain, &law, impact),
+            None => self.any_impact(tables, impact),
         }
     }
 }

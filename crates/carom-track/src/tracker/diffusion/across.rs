@@ -11,9 +11,9 @@ use crate::geometry::{Path, split};
 use crate::record::Sink;
 use crate::tracker::Walk;
 use crate::tracker::crew::{Crew, motion_of};
+use crate::tracker::cross::NO_WAY;
 use crate::tracker::lane;
 use crate::tracker::meeting::put;
-use crate::tracker::walk::NO_WAY;
 use crate::vector::add;
 
 /// Pieces that a step goes through before its place is looked for anew: where cells overlap it may be led round and round.

@@ -8,7 +8,8 @@ use crate::geometry::{Path, split};
 use crate::integrate::{Control, Motion, Rates, Step, growth, step};
 use crate::tracker::Walk;
 use crate::tracker::crew::{Crew, motion_of};
-use crate::tracker::walk::{Acting, MOST_EDGES, SHORT, least_step};
+use crate::tracker::cross::{MOST_EDGES, SHORT};
+use crate::tracker::walk::{Acting, least_step};
 use crate::vector::{Vec3, scale};
 
 impl<D: Domain> Walk<'_, D> {

@@ -210,7 +210,7 @@ fn hard_meshes(seed: u64) -> Vec<(String, carom_cfd::Mesh)> {
 #[test]
 #[ignore = "10⁷ crossings by default, half a minute; 10⁹ in half an hour of one core"]
 fn crossings_of_hard_meshes_lose_no_sphere() {
-    use super::super::walk::CROSSED;
+    use super::super::cross::CROSSED;
     use std::sync::atomic::Ordering;
     let wanted = std::env::var("CAROM_CROSSINGS").map_or(1e7, |n| n.parse::<f64>().expect("a number"));
     let (mut crossed, mut spheres, mut stuck) = (0, 0, std::collections::BTreeMap::<String, usize>::new());
