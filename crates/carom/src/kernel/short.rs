@@ -80,7 +80,7 @@ impl Kernel {
     }
 
     /// One impact, by the short path if there is one: the answer is built where the caller wants it, in each arm.
-    #[inline]
+    #[inline(never)]
     pub(crate) fn scalar_impact(&self, tables: &Tables, impact: &Impact) -> Result<Outcome, ImpactError> {
         match self.short() {
             Some(ShortLaw::Elastic(law)) => self.one_impact(&law, tables, impact),
