@@ -1,7 +1,9 @@
 //! How far the solid walls of a mesh are, and how fast the fluid rubs on them.
 //!
 //! The distance d of the nearest solid wall and the friction velocity u_τ there are found at each node and are linear in each
-//! tetrahedron like everything else: on flat walls d is exact, and its gradient is the wall's normal. With y the distance of the centre
+//! tetrahedron like everything else: on flat walls d is exact, and its gradient is the wall's normal. Where two walls are as near, that gradient
+//! jumps from a tetrahedron to the next, and spheres that a walk carries towards the jump from both sides would stay on it: the normal's direction is
+//! linear too, from node to node, each with the mean of the tetrahedra around it. With y the distance of the centre
 //! of the wall's cell, u its speed along the wall and k its turbulent kinetic energy, the face of a wall has
 //!
 //! u_τ = C_µ^{1/4} √k where C_µ^{1/4} √k y/ν > 11.225, else √(ν u/y):
@@ -12,13 +14,13 @@
 use super::{C_MU, Cells};
 use crate::flow::Local;
 use crate::geometry::{Shape, Wall};
-use crate::vector::{Vec3, cross, dot, norm, scale, sub, unit};
+use crate::vector::{Vec3, add, cross, dot, norm, scale, sub, unit};
 use rayon::prelude::*;
 
-/// d, m, and u_τ, m/s, of each node.
+/// d, m, u_τ, m/s, and the direction away from walls, of each node.
 #[derive(Debug)]
 pub(crate) struct NearWalls {
-    nodes: Vec<[f64; 2]>,
+    nodes: Vec<[f64; 5]>,
 }
 
 /// y⁺ where the sublayer meets the log law: y⁺ = ln(9.8 y⁺)/0.41.
@@ -52,22 +54,38 @@ impl NearWalls {
             }
             [nearest.0, nearest.1]
         };
-        Some(Self { nodes: cells.nodes.par_iter().map(|node| at(node.place)).collect() })
+        let found: Vec<_> = cells.nodes.par_iter().map(|node| at(node.place)).collect();
+        let away = cells.away(|node| found[node][0]);
+        Some(Self { nodes: found.into_iter().zip(away).map(|([d, rub], [x, y, z])| [d, rub, x, y, z]).collect() })
     }
 
     /// Adds what is known of the walls.
     #[inline(always)]
     pub fn add(&self, cells: &Cells, here: &super::Tetrahedron, x: Vec3, local: &mut Local) {
-        let [distance, rub] = cells.blend(here, x, &self.nodes);
-        let slope = cells.slope(here, |node| self.nodes[node][0]);
+        let [distance, rub, away @ ..] = cells.blend(here, x, &self.nodes);
         local.wall_distance = if distance > 0.0 { distance } else { 0.0 };
         local.friction_velocity = if rub > 0.0 { rub } else { 0.0 };
-        let steepness = norm(slope);
-        local.wall_normal = if steepness > 0.0 { scale(slope, 1.0 / steepness) } else { [0.0; 3] };
+        local.wall_normal = unit(away).unwrap_or_default();
     }
 }
 
 impl Cells {
+    /// The direction of a field's gradient at each node, the mean of the tetrahedra around it; of no length where they cancel.
+    fn away(&self, field: impl Fn(usize) -> f64) -> Vec<Vec3> {
+        let mut away = vec![[0.0; 3]; self.nodes.len()];
+        for cell in 0..self.len() {
+            for tet in self.cut.of_cell(cell) {
+                let Some(here) = self.tetrahedron_of(tet, self.cut.cell(tet)) else { continue };
+                let Some(direction) = unit(self.slope(&here, &field)) else { continue };
+                let ([a, b, c], centre) = self.corners(here.id, here.cell);
+                for node in [a, b, c, centre] {
+                    away[node] = add(away[node], direction);
+                }
+            }
+        }
+        away.into_iter().map(|sum| unit(sum).unwrap_or_default()).collect()
+    }
+
     /// u_τ of each triangle of a patch, m/s.
     fn frictions(&self, patch: usize, nu: f64) -> Vec<f64> {
         let faces = &self.patches[patch].faces;

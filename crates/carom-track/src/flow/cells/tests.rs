@@ -145,23 +145,25 @@ fn a_point_is_in_the_tetrahedron_found_and_none_is_found_outside() {
     }
 }
 
+/// What is known of some patches as solid walls, the others open.
+fn between(cells: &Cells, solid: &[&str], nu: f64) -> NearWalls {
+    use crate::geometry::{Mesh, Shape, Wall};
+    let wall = |p: &Patch| Wall {
+        patch: Some(p.name.clone()),
+        ..Wall::new(&p.name, Shape::Mesh(Mesh::new(&cells.wall(p)).unwrap()))
+    };
+    let walls: Vec<Wall> = cells.patches().iter().map(wall).collect();
+    let open: Vec<bool> = walls.iter().map(|w| !solid.contains(&w.name.as_str())).collect();
+    NearWalls::new(cells, &walls, &open, nu).unwrap()
+}
+
 #[test]
 fn distance_and_friction_of_a_wall_are_those_of_a_shear_flow() {
-    use crate::geometry::{Mesh, Shape, Wall};
     // u = 3 y above the floor alone: u_τ = √(ν 3)
     let snapshot = with_cell_velocity(shaken(Kind::Polyhedra, [8, 5, 8], 0.15, 8), |x| [3.0 * x[1], 0.0, 0.0]);
     let cells = Cells::new(&snapshot).unwrap();
-    let walls: Vec<Wall> = cells
-        .patches()
-        .iter()
-        .map(|p| Wall {
-            patch: Some(p.name.clone()),
-            ..Wall::new(&p.name, Shape::Mesh(Mesh::new(&cells.wall(p)).unwrap()))
-        })
-        .collect();
-    let open: Vec<bool> = walls.iter().map(|w| w.name != "bottom").collect();
     let nu = 1.5e-5;
-    let near = NearWalls::new(&cells, &walls, &open, nu).unwrap();
+    let near = between(&cells, &["bottom"], nu);
     let mut dice = Dice::new(10);
     for _ in 0..200 {
         // away from the rims, where values of points know of the sides
@@ -186,5 +188,41 @@ fn a_density_that_is_not_positive_is_refused() {
     for odd in [0.0, -0.1] {
         snapshot.fields.density = Some(with(odd));
         assert_eq!(Cells::new(&snapshot).unwrap_err(), CellsError::Density { least: odd });
+    }
+}
+
+#[test]
+fn the_direction_of_walls_does_not_jump_where_two_are_as_near() {
+    // a floor and a side: a direction that jumped at the sides of tetrahedra would hold walking spheres there
+    let nu = 1.5e-5;
+    for kind in Kind::ALL {
+        let cells = Cells::new(&with_velocity(shaken(kind, [6, 6, 4], 0.05, 3), |x| x)).unwrap();
+        assert_eq!(cells.inverted(), 0, "{kind:?}");
+        let near = between(&cells, &["bottom", "left"], nu);
+        let normal = |x: Vec3| {
+            let here = cells.find(x);
+            let mut local = cells.sample_in(&here, x);
+            near.add(&cells, &here, x, &mut local);
+            (here.id, local.wall_normal)
+        };
+        let mut dice = Dice::new(21);
+        let mut crossed = 0;
+        for _ in 0..120 {
+            let x = dice.point().map(|c| 0.1 + 0.8 * c);
+            let there = dice.point().map(|c| 0.1 + 0.8 * c);
+            // a crossing by bisection
+            let ((mut a, mut b), first) = ((0.0, 1.0), normal(x).0);
+            let at = |t: f64| add(x, crate::vector::scale(sub(there, x), t));
+            for _ in 0..40 {
+                let middle = 0.5 * (a + b);
+                if normal(at(middle)).0 == first { a = middle } else { b = middle }
+            }
+            let ((from, n), (into, m)) = (normal(at(a)), normal(at(b)));
+            if from != into {
+                crossed += 1;
+                assert!(close(n, m, 1e-8), "{kind:?} at {:?}: {n:?} {m:?}", at(a));
+            }
+        }
+        assert!(crossed > 60, "{kind:?}: {crossed}");
     }
 }
