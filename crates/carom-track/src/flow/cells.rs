@@ -10,6 +10,7 @@ mod locate;
 mod making;
 mod near_walls;
 mod nodes;
+mod seams;
 mod state;
 mod strips;
 mod tetrahedra;
@@ -31,6 +32,7 @@ use carom_cfd::{Carry, Field, Patch, PatchKind, Snapshot};
 use cut::{Cut, NONE};
 use locate::Locator;
 use nodes::Nodes;
+use seams::Seams;
 use strips::Strips;
 
 /// A flow on a mesh of cells.
@@ -50,6 +52,7 @@ pub struct Cells {
     /// Of a plane case, how tetrahedra make triangles of the plane.
     strips: Option<Strips>,
     wedge: Option<Wedge>,
+    seams: Seams,
     locator: Option<Locator>,
     bounds: Bounds,
     inverted: usize,
@@ -128,19 +131,17 @@ impl Cells {
             (0, count) if wedge.is_none() => return Err(CellsError::Wedges { count }),
             _ => {}
         }
-        let pairs = beyond::pairs(mesh);
+        let seams = Seams::new(mesh, &areas);
         let base = base_points(mesh, &cell_centres);
         let mut cut = Cut::new(mesh, &base);
         // values at points may differ along a column
         let alike = matches!(fields.velocity, Some(Field::Cells { .. }));
         let strips = plane.as_ref().filter(|_| alike).and_then(|plane| Strips::new(mesh, plane, &mut cut));
-        let nodes = Nodes { mesh, cut: &cut, cell_centres: &cell_centres, face_centres: &face_centres, pairs: &pairs };
+        let nodes = Nodes { mesh, cut: &cut, cell_centres: &cell_centres, face_centres: &face_centres, seams: &seams };
         let mut velocity = nodes.values(velocity, |carry, v: Vec3| carry.vector(v));
-        if matches!(fields.velocity, Some(Field::Cells { .. })) {
-            nodes::along_symmetry(mesh, &areas, &mut velocity);
-            if let Some(wedge) = &wedge {
-                wedge.turn_sides(mesh, &mut velocity);
-            }
+        seams.along_mirrors(&mut velocity);
+        if let (Some(Field::Cells { .. }), Some(wedge)) = (&fields.velocity, &wedge) {
+            wedge.turn_sides(mesh, &mut velocity);
         }
         let scalar = |field: &Field<1>| nodes.values(field, |_, v| v);
         let k = fields.k.as_ref().map(&scalar);
@@ -175,6 +176,7 @@ impl Cells {
             plane,
             strips,
             wedge,
+            seams,
             locator: None,
             bounds,
             inverted: base.inverted.len(),

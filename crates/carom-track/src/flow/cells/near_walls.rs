@@ -54,7 +54,8 @@ impl NearWalls {
             }
             [nearest.0, nearest.1]
         };
-        let found: Vec<_> = cells.nodes.par_iter().map(|node| at(node.place)).collect();
+        let mut found: Vec<_> = cells.nodes.par_iter().map(|node| at(node.place)).collect();
+        cells.seams.join(&mut found, |_, near| near, |a, b| if b[0] < a[0] { b } else { a });
         let away = cells.away(|node| found[node][0]);
         Some(Self { nodes: found.into_iter().zip(away).map(|([d, rub], [x, y, z])| [d, rub, x, y, z]).collect() })
     }
@@ -83,6 +84,8 @@ impl Cells {
                 }
             }
         }
+        self.seams.join(&mut away, |carry, sum| carry.vector(sum), add);
+        self.seams.along_all(&mut away);
         away.into_iter().map(|sum| unit(sum).unwrap_or_default()).collect()
     }
 

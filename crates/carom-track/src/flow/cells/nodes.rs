@@ -6,7 +6,8 @@
 //! and axisymmetric cases, planes of symmetry and cyclic patches are no boundary in this sense.
 
 use super::cut::Cut;
-use crate::vector::{Vec3, dot, norm, scale, sub};
+use super::seams::Seams;
+use crate::vector::{Vec3, norm, sub};
 use carom_cfd::{Carry, Field, Mesh, PatchKind};
 
 /// What to interpolate on.
@@ -15,8 +16,7 @@ pub(super) struct Nodes<'a> {
     pub cut: &'a Cut,
     pub cell_centres: &'a [Vec3],
     pub face_centres: &'a [Vec3],
-    /// Points on each pair of cyclic patches: one on a patch, that on its partner, and how it is carried there.
-    pub pairs: &'a [(u32, u32, Carry)],
+    pub seams: &'a Seams,
 }
 
 /// Whether the values of a patch's faces hold at its points.
@@ -94,19 +94,9 @@ impl Nodes<'_> {
                 add(point, self.cell_centres[cell], &cells[cell]);
             }
         });
-        self.join(&mut sums, turn);
+        let plus = |a: [f64; N], b: [f64; N]| std::array::from_fn(|i| a[i] + b[i]);
+        self.seams.join(&mut sums, |carry, (v, w)| (turn(carry, v), w), |(a, w), (b, x)| (plus(a, b), w + x));
         sums.into_iter().map(|(sum, w)| sum.map(|s| if w > 0.0 { s / w } else { 0.0 })).collect()
-    }
-
-    /// Sums of points that are one across a pair of cyclic patches.
-    fn join<const N: usize>(&self, sums: &mut [([f64; N], f64)], turn: impl Fn(&Carry, [f64; N]) -> [f64; N]) {
-        for (from, to, carry) in self.pairs {
-            let ((a, wa), (b, wb)) = (sums[*from as usize], sums[*to as usize]);
-            let (there, back) = (turn(carry, a), turn(&carry.inverse(), b));
-            let add = |a: [f64; N], b: [f64; N]| std::array::from_fn(|i| a[i] + b[i]);
-            sums[*from as usize] = (add(a, back), wa + wb);
-            sums[*to as usize] = (add(there, b), wa + wb);
-        }
     }
 
     /// Each point of each cell once.
@@ -133,17 +123,4 @@ pub(super) fn on_boundary(mesh: &Mesh) -> Vec<bool> {
         }
     }
     on
-}
-
-/// A velocity less what leads through planes of symmetry, at the points on them.
-pub(super) fn along_symmetry(mesh: &Mesh, face_areas: &[Vec3], velocity: &mut [Vec3]) {
-    for patch in mesh.patches.iter().filter(|p| p.kind == PatchKind::Symmetry) {
-        for face in patch.faces.clone() {
-            let Some(n) = crate::vector::unit(face_areas[face]) else { continue };
-            for point in mesh.faces.get(face) {
-                let v = &mut velocity[*point as usize];
-                *v = sub(*v, scale(n, dot(*v, n)));
-            }
-        }
-    }
 }

@@ -179,6 +179,51 @@ fn distance_and_friction_of_a_wall_are_those_of_a_shear_flow() {
 }
 
 #[test]
+fn on_seams_the_direction_of_walls_is_that_of_the_whole_body() {
+    // midway between floor and ceiling the direction is made of turned tetrahedra on one side of the seam alone
+    let kinds: [(&str, fn(&str) -> PatchKind); 2] = [
+        ("mirrors", |name| if matches!(name, "left" | "right") { PatchKind::Symmetry } else { PatchKind::Wall }),
+        ("cyclic", |name| match name {
+            "left" => PatchKind::Cyclic { partner: 1, carry: Carry::by([1.0, 0.0, 0.0]) },
+            "right" => PatchKind::Cyclic { partner: 0, carry: Carry::by([-1.0, 0.0, 0.0]) },
+            _ => PatchKind::Wall,
+        }),
+    ];
+    for (what, kind) in kinds {
+        let mut mesh = block(Kind::Hexahedra, [4, 4, 3], |x| [x[0], x[1] + 0.3 * x[1] * (1.0 - x[1]) * x[2], x[2]]);
+        for (at, x) in mesh.points.iter_mut().enumerate() {
+            // inside, not the same on both sides
+            if x[0] > 0.01 && x[0] < 0.99 {
+                x[0] += 0.04 * (at as f64).sin();
+            }
+        }
+        for patch in &mut mesh.patches {
+            patch.kind = kind(&patch.name);
+        }
+        let cells = Cells::new(&with_velocity(mesh, |_| [0.5, 0.1, 0.0])).unwrap();
+        let near = between(&cells, &["bottom", "top"], 1.5e-5);
+        let at = |x: Vec3| {
+            let here = cells.find(x);
+            let mut local = cells.sample_in(&here, x);
+            near.add(&cells, &here, x, &mut local);
+            local
+        };
+        let mut dice = Dice::new(4);
+        for _ in 0..100 {
+            let [_, y, z] = dice.point().map(|c| 0.02 + 0.96 * c);
+            let (a, b) = (at([1e-12, y, z]), at([1.0 - 1e-12, y, z]));
+            assert!((a.wall_distance - b.wall_distance).abs() < 1e-9, "{what} {y} {z}");
+            if what == "cyclic" {
+                assert!(close(a.wall_normal, b.wall_normal, 1e-8), "{y} {z}: {:?} {:?}", a.wall_normal, b.wall_normal);
+            } else {
+                assert!(a.wall_normal[0].abs().max(b.wall_normal[0].abs()) < 1e-9, "{y} {z}: {:?}", a.wall_normal);
+                assert!(a.velocity[0].abs().max(b.velocity[0].abs()) < 1e-9, "{y} {z}: {:?}", a.velocity);
+            }
+        }
+    }
+}
+
+#[test]
 fn a_density_that_is_not_positive_is_refused() {
     let mut snapshot = with_velocity(block(Kind::Hexahedra, [3, 2, 2], |x| x), |x| x);
     let points = snapshot.mesh.points.len();
