@@ -42,8 +42,10 @@ impl Slip {
             Self::AllenRaabe => (1.142, 0.558, 0.999),
         };
         let kn = 2.0 * mean_free_path / diameter;
-        // at Kn = 0 the quotient is infinite and its exponential zero
-        1.0 + kn * (a + b * exp(-c / kn))
+        // infinite at Kn = 0; from 40 on the exponential is lost against α, and would be too small for fast arithmetic further on
+        let decay = c / kn;
+        let rest = if decay < 40.0 { b * exp(-decay) } else { 0.0 };
+        1.0 + kn * (a + rest)
     }
 }
 
