@@ -130,7 +130,7 @@ impl Dynamics {
         }
     }
 
-    /// Whether a sphere follows the fluid so closely that its steps should not know by how much
+    /// Whether a sphere follows the fluid so closely that its steps should at first not know by how much
     /// ([`exponential`](crate::integrate::exponential)), by its relaxation time in the run's fluid, wherever it goes. What the steps give
     /// is the same on both sides, to the tolerance; kicks change within a relaxation time, and are stepped as such.
     pub fn follows(&self, sphere: &Sphere) -> bool {
@@ -157,12 +157,14 @@ impl Dynamics {
         bodies.eddy[l] = None;
     }
 
-    /// Accelerations of spheres in a domain's fluid.
+    /// Accelerations of spheres in a domain's fluid, of those at least that are `wanted`.
     #[inline(always)]
+    #[allow(clippy::too_many_arguments, reason = "the state of a sphere, and where it is")]
     pub fn rates<const W: usize, D: Domain>(
         &self,
         domain: &D,
         here: &D::Many<W>,
+        wanted: &[bool; W],
         time: &Lanes<W>,
         bodies: &Bodies<W>,
         m: &Motion<W>,
@@ -172,6 +174,9 @@ impl Dynamics {
             self.plain_rates(domain, here, time, bodies, m, out);
         } else {
             for l in 0..W {
+                if !wanted[l] {
+                    continue;
+                }
                 let r = self.full_rates(domain, here.get(l), time[l], bodies, m, l);
                 for c in 0..3 {
                     out.a[c][l] = r.acceleration[c];

@@ -9,6 +9,7 @@ mod contact;
 mod crew;
 mod cross;
 mod diffusion;
+mod gait;
 mod kinds;
 mod lane;
 mod meeting;

@@ -81,6 +81,7 @@
 mod eddy;
 pub mod langevin;
 mod near_wall;
+mod tensor;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]
@@ -90,8 +91,9 @@ pub use eddy::{Eddy, Surroundings};
 pub use near_wall::NearWall;
 
 use crate::flow::Local;
-use crate::vector::{Vec3, add, cross, dot, frame, norm, scale, sub};
+use crate::vector::{Vec3, add, scale, sub};
 use carom::math::{exp, ln};
+use tensor::Tensor;
 
 /// How the fluctuation that a sphere meets changes in time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -130,6 +132,20 @@ impl Life {
                 }
             }
         }
+    }
+}
+
+/// The fluid near a sphere: anything that gives it at a place, m. A closure does; where every instruction counts, a type whose method
+/// is inlined.
+pub trait Around {
+    /// What is known of the fluid at `x`.
+    fn at(&self, x: [f64; 3]) -> Local;
+}
+
+impl<F: Fn([f64; 3]) -> Local> Around for F {
+    #[inline(always)]
+    fn at(&self, x: [f64; 3]) -> Local {
+        self(x)
     }
 }
 
@@ -207,14 +223,8 @@ impl RandomWalk {
     ///
     /// With drift the fluid is sampled four times, at `x` and close by.
     #[inline(always)]
-    pub fn surroundings(
-        &self,
-        fluid: impl Fn([f64; 3]) -> Local,
-        x: [f64; 3],
-        nu: f64,
-        relaxation_time: f64,
-    ) -> Surroundings {
-        let local = fluid(x);
+    pub fn surroundings(&self, fluid: impl Around, x: [f64; 3], nu: f64, relaxation_time: f64) -> Surroundings {
+        let local = fluid.at(x);
         if !(local.k > 0.0 && local.epsilon > 0.0) {
             return Surroundings::CALM;
         }
@@ -249,13 +259,16 @@ impl RandomWalk {
 
     /// ∇·S = Σ_d ∂(Sᵀ d)/∂d over three directions at right angles, 1/s.
     #[inline(always)]
-    fn divergence(&self, fluid: &impl Fn(Vec3) -> Local, x: Vec3, local: &Local, nu: f64, length: f64) -> Vec3 {
+    fn divergence(&self, fluid: &impl Around, x: Vec3, local: &Local, nu: f64, length: f64) -> Vec3 {
         let step = REACH * local.wall_distance.min(length).max(REACH * length);
-        directions(local).iter().fold([0.0; 3], |sum, d| {
-            let there = fluid(add(x, scale(*d, step)));
-            let change = sub(self.apply::<true>(*d, &there, nu), self.apply::<true>(*d, local, nu));
-            add(sum, scale(change, 1.0 / step))
-        })
+        let here = Tensor::new(self.near_wall, local, nu);
+        let mut sum = [0.0; 3];
+        for d in here.directions {
+            let there = Tensor::new(self.near_wall, &fluid.at(add(x, scale(d, step))), nu);
+            let change = sub(there.apply::<true>(d), here.apply::<true>(d));
+            sum = add(sum, scale(change, 1.0 / step));
+        }
+        sum
     }
 
     /// How long a sphere of a relaxation time (s) that moves at a speed (m/s) against the fluid takes to cross an eddy of
@@ -272,42 +285,6 @@ impl RandomWalk {
     /// u' = S ζ (m/s) where the mean flow is `local`: to be added to the mean velocity.
     #[inline(always)]
     pub fn fluctuation(&self, deviates: [f64; 3], local: &Local, nu: f64) -> [f64; 3] {
-        self.apply::<false>(deviates, local, nu)
+        Tensor::new(self.near_wall, local, nu).apply::<false>(deviates)
     }
-
-    /// S ζ, or Sᵀ ζ.
-    #[inline(always)]
-    fn apply<const TRANSPOSED: bool>(&self, deviates: Vec3, local: &Local, nu: f64) -> Vec3 {
-        if local.k <= 0.0 {
-            return [0.0; 3];
-        }
-        let [along, normal, across] = self.near_wall.intensities(local, nu);
-        if dot(local.wall_normal, local.wall_normal) == 0.0 || (along == normal && along == across) {
-            return scale(deviates, along);
-        }
-        let [t, n, b] = directions(local);
-        let part = |d: Vec3, sigma: f64| scale(d, sigma * dot(d, deviates));
-        let rho = self.near_wall.correlation(local, nu);
-        if rho == 0.0 {
-            return add(add(part(t, along), part(n, normal)), part(b, across));
-        }
-        // away from the wall comes slower fluid
-        let (to, from) = if TRANSPOSED { (n, t) } else { (t, n) };
-        let shared = scale(to, -rho * along * dot(from, deviates));
-        let alone = along * (1.0 - rho * rho).sqrt();
-        add(add(add(part(t, alone), shared), part(n, normal)), part(b, across))
-    }
-}
-
-/// Along the flow, along the wall's normal, and across; x, y, z where no wall is known.
-#[inline(always)]
-fn directions(local: &Local) -> [Vec3; 3] {
-    let n = local.wall_normal;
-    if dot(n, n) == 0.0 {
-        return [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    }
-    let stream = sub(local.velocity, scale(n, dot(local.velocity, n)));
-    let speed = norm(stream);
-    let t = if speed > 0.0 { scale(stream, 1.0 / speed) } else { frame(n).0 };
-    [t, n, cross(t, n)]
 }

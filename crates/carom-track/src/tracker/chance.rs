@@ -1,18 +1,19 @@
 //! What changes at random in flight: the eddy a sphere is in.
 //!
-//! An eddy drifts and ages with the place: half
-//! of a step's drift is added before the step, with the place it starts from, and the whole of it, with both ends, after.
+//! An eddy drifts and ages with the place: a step is taken with the drift of the place that it starts from, and after it the eddy has the mean of
+//! both ends'; the sphere gets what it would have of the difference, so that it need not relax to it.
 
 use super::Walk;
 use super::crew::{Crew, motion_of};
 use super::lane::Lane;
 use crate::domain::{Carry, Domain, Pieces};
 use crate::flow::{Fluid, Local};
-use crate::force::{Eddy, RandomWalk, Sphere, Surroundings};
+use crate::force::random_walk::Around;
+use crate::force::{Eddy, Model, RandomWalk, Sphere, Surroundings};
 use crate::random::{Purpose, Stream};
 use crate::vector::{Vec3, add, norm, sub};
 use carom::instructions::{Work, run_scalar};
-use carom::math::Fma;
+use carom::math::{Fma, exp};
 
 /// The present eddy and how many there were.
 #[derive(Clone, Copy, Debug)]
@@ -79,20 +80,34 @@ impl<D: Domain> Walk<'_, D> {
         self.dynamics.random_walk.is_some_and(|walk| walk.drift)
     }
 
-    /// Gives a lane's eddy the deviates of the middle of the step it is about to try, or lets them drift with the time.
+    /// Lets a lane's deviates drift with the time from here on: a fluctuation that jumped from step to step would hold the steps down to
+    /// what the drag allows.
     pub(super) fn lean<const W: usize>(&self, crew: &mut Crew<W, D::Many<W>>, l: usize) {
         let chance = &crew.lanes[l].chance;
-        if crew.follows[l] {
-            // what follows a gust at once must see it change, and not jump from step to step
-            crew.bodies.eddy[l] = Some(chance.eddy);
-            crew.bodies.since[l] = crew.time[l];
-            for c in 0..3 {
-                crew.bodies.drift[c][l] = chance.place.drift[c];
-            }
-        } else {
-            crew.bodies.eddy[l] = Some(chance.midway(crew.h[l]));
+        (crew.bodies.eddy[l], crew.bodies.since[l]) = (Some(chance.eddy), crew.time[l]);
+        for c in 0..3 {
+            crew.bodies.drift[c][l] = chance.place.drift[c];
         }
         crew.stale[l] = true;
+    }
+
+    /// Gives a lane's sphere what it would have of a drift that is now known to differ by the end of a step (s) from what the step took it
+    /// for: that much less is left to relax.
+    fn catch_up<const W: usize>(&self, crew: &mut Crew<W, D::Many<W>>, l: usize, walk: &RandomWalk, step: f64) {
+        let Some(taken) = crew.bodies.eddy[l] else { return };
+        let age = crew.time[l] - crew.bodies.since[l];
+        let now = crew.lanes[l].chance.eddy.deviates;
+        let missing = [0, 1, 2].map(|c| now[c] - crew.bodies.drift[c][l].mul_add(age, taken.deviates[c]));
+        let z = step * crew.rates.drag[l];
+        // the drift changed evenly over the step, what is missing grew with the square of the time: v' = β (u − v) of that
+        let share = if z > 0.01 { 1.0 - 2.0 / z + 2.0 * (1.0 - exp(-z)) / (z * z) } else { z / 3.0 - z * z / 12.0 };
+        let (x, _, _) = motion_of(&crew.motion, l);
+        let nu = self.properties(crew.here.get(l), crew.time[l], x).kinematic_viscosity();
+        let fluid = Near { domain: self.domain, piece: crew.here.get(l), time: crew.time[l] };
+        let (_, change) = run_scalar(Fluctuation { walk, fluid, x, nu, deviates: missing });
+        for c in 0..3 {
+            crew.motion.v[c][l] = share.mul_add(change[c], crew.motion.v[c][l]);
+        }
     }
 
     /// Brings chance up to a lane's time and place, `step` after it last was, draws what is due, and says when to stop next.
@@ -105,6 +120,8 @@ impl<D: Domain> Walk<'_, D> {
                 changed = self.renew_eddy(walk, &mut crew.lanes[l], place, v, step);
                 if changed {
                     crew.bodies.eddy[l] = Some(crew.lanes[l].chance.eddy);
+                } else if walk.drift && step > 0.0 {
+                    self.catch_up(crew, l, walk, step);
                 }
             }
             None => crew.lanes[l].chance.look = f64::INFINITY,
@@ -113,7 +130,7 @@ impl<D: Domain> Walk<'_, D> {
         if changed {
             self.begin_anew(crew, l);
         }
-        if crew.follows[l] && self.drifts() {
+        if self.drifts() {
             self.lean(crew, l);
         }
         let (time, next) = (crew.time[l], crew.lanes[l].chance.next());
@@ -133,8 +150,8 @@ impl<D: Domain> Walk<'_, D> {
         let nu = properties.kinematic_viscosity();
         let sphere = Sphere { diameter: lane.particle.diameter, density: lane.particle.density };
         let tau = self.dynamics.relaxation_time_in(&properties, &sphere);
-        let fluid = |x| self.domain.fluid(piece, time, x);
-        let here = || run_scalar(Around { walk, fluid, x, nu, tau });
+        let fluid = Near { domain: self.domain, piece, time };
+        let here = || run_scalar(Surround { walk, fluid, x, nu, tau });
         let (number, chance) = (lane.particle.number, &mut lane.chance);
         // a plain walk's eddy lives as long as where it was met, once there is turbulence
         let place = if walk.drift || chance.place == Surroundings::CALM { here() } else { chance.place };
@@ -153,8 +170,11 @@ impl<D: Domain> Walk<'_, D> {
                 chance.eddies = chance.eddies.wrapping_add(1);
                 (chance.eddies == 1, draws.normals(), draws.open_uniform())
             });
-            let gust = run_scalar(Gust { walk, fluid, x, nu, deviates: chance.eddy.deviates });
-            chance.crossed = time + walk.crossing(chance.place.length, tau, norm(sub(gust, v)));
+            chance.crossed = f64::INFINITY;
+            if walk.model == Model::Eddies {
+                let (mean, gust) = run_scalar(Fluctuation { walk, fluid, x, nu, deviates: chance.eddy.deviates });
+                chance.crossed = time + walk.crossing(chance.place.length, tau, norm(sub(add(mean, gust), v)));
+            }
         }
         let longest =
             if walk.drift { chance.eddy.longest_step(&chance.place) } else { chance.eddy.rest(&chance.place) };
@@ -163,16 +183,38 @@ impl<D: Domain> Walk<'_, D> {
     }
 }
 
+/// The fluid of a domain at a time, in a piece of it.
+struct Near<'a, D: Domain> {
+    domain: &'a D,
+    piece: D::Here,
+    time: f64,
+}
+
+impl<D: Domain> Copy for Near<'_, D> {}
+
+impl<D: Domain> Clone for Near<'_, D> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<D: Domain> Around for Near<'_, D> {
+    #[inline(always)]
+    fn at(&self, x: Vec3) -> Local {
+        self.domain.fluid(self.piece, self.time, x)
+    }
+}
+
 /// What a place does to an eddy; like the forces, compiled with and without a fused multiply-add.
-struct Around<'a, L> {
+struct Surround<'a, D: Domain> {
     walk: &'a RandomWalk,
-    fluid: L,
+    fluid: Near<'a, D>,
     x: Vec3,
     nu: f64,
     tau: f64,
 }
 
-impl<L: Fn(Vec3) -> Local> Work for Around<'_, L> {
+impl<D: Domain> Work for Surround<'_, D> {
     type Output = Surroundings;
 
     #[inline(always)]
@@ -181,21 +223,21 @@ impl<L: Fn(Vec3) -> Local> Work for Around<'_, L> {
     }
 }
 
-/// The fluid's velocity at a place, with an eddy's share.
-struct Gust<'a, L> {
+/// The mean velocity and the fluctuation at a place.
+struct Fluctuation<'a, D: Domain> {
     walk: &'a RandomWalk,
-    fluid: L,
+    fluid: Near<'a, D>,
     x: Vec3,
     nu: f64,
     deviates: Vec3,
 }
 
-impl<L: Fn(Vec3) -> Local> Work for Gust<'_, L> {
-    type Output = Vec3;
+impl<D: Domain> Work for Fluctuation<'_, D> {
+    type Output = (Vec3, Vec3);
 
     #[inline(always)]
-    fn run<F: Fma, const LANES: usize>(self, _: F) -> Vec3 {
-        let local = (self.fluid)(self.x);
-        add(local.velocity, self.walk.fluctuation(self.deviates, &local, self.nu))
+    fn run<F: Fma, const LANES: usize>(self, _: F) -> (Vec3, Vec3) {
+        let local = self.fluid.at(self.x);
+        (local.velocity, self.walk.fluctuation(self.deviates, &local, self.nu))
     }
 }

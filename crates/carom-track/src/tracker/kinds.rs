@@ -1,7 +1,7 @@
 //! A trial step of all lanes, each by the method of its sphere.
 //!
-//! Spheres whose relaxation time is long take explicit steps, those that follow the fluid steps that do not know it
-//! ([`Dynamics::follows`](crate::dynamics::Dynamics::follows)): for life, so that a run of one kind runs one kind of step.
+//! Spheres whose relaxation time is long against the flow's times take explicit steps, those that follow the fluid steps that do not know
+//! it: `gait.rs` chooses.
 
 #![allow(clippy::needless_range_loop, reason = "one index runs through several arrays of lanes or components")]
 
@@ -25,10 +25,10 @@ impl<D: Domain> Walk<'_, D> {
         }
         crew.some_follow = some;
         if !all {
-            let h = if some { masked(&crew.h, &crew.follows, false) } else { crew.h };
-            let forces =
-                Acting { dynamics: self.dynamics, domain: self.domain, here: &crew.here, bodies: &crew.bodies };
-            step(&crew.time, &crew.motion, &crew.rates, &h, control, &forces, &mut crew.step);
+            let (h, wanted) = if some { masked(crew, false) } else { (crew.h, crew.busy) };
+            let Crew { here, bodies, time, motion, rates, step: out, .. } = crew;
+            let forces = Acting { dynamics: self.dynamics, domain: self.domain, here, wanted: &wanted, bodies };
+            step(time, motion, rates, &h, control, &forces, out);
         }
         if some {
             self.set.run(Following { walk: self, crew, control, all });
@@ -62,27 +62,29 @@ impl<const W: usize, D: Domain> Work for Following<'_, '_, W, D> {
     #[inline(always)]
     fn run<F: Fma, const LANES: usize>(self, _: F) {
         let Self { walk, crew, control, all } = self;
-        let forces = Acting { dynamics: walk.dynamics, domain: walk.domain, here: &crew.here, bodies: &crew.bodies };
+        let (h, wanted) = if all { (crew.h, crew.busy) } else { masked(crew, true) };
+        let Crew { here, bodies, time, motion, rates, step, .. } = crew;
+        let forces = Acting { dynamics: walk.dynamics, domain: walk.domain, here, wanted: &wanted, bodies };
         if all {
-            exponential::step(&crew.time, &crew.motion, &crew.rates, &crew.h, control, &forces, &mut crew.step);
+            exponential::step(time, motion, rates, &h, control, &forces, step);
             return;
         }
-        let h = masked(&crew.h, &crew.follows, true);
         let (mut out, mut theirs) = (Step::ZERO, [0; W]);
-        exponential::step(&crew.time, &crew.motion, &crew.rates, &h, control, &forces, &mut out);
+        exponential::step(time, motion, rates, &h, control, &forces, &mut out);
         for l in 0..W {
-            theirs[l] = mask(crew.follows[l]);
+            theirs[l] = mask(wanted[l]);
         }
-        crew.step.take(&out, &theirs);
+        step.take(&out, &theirs);
     }
 }
 
-/// The steps of lanes of one kind; of the others none.
+/// The steps of the lanes at work of one kind, of the others none, and which lanes these are.
 #[inline(always)]
-fn masked<const W: usize>(h: &Lanes<W>, follows: &[bool; W], wanted: bool) -> Lanes<W> {
-    let mut out = [0.0; W];
+fn masked<const W: usize, P>(crew: &Crew<W, P>, follows: bool) -> (Lanes<W>, [bool; W]) {
+    let (mut h, mut those) = ([0.0; W], [false; W]);
     for l in 0..W {
-        out[l] = if follows[l] == wanted { h[l] } else { 0.0 };
+        those[l] = crew.busy[l] & (crew.follows[l] == follows);
+        h[l] = if those[l] { crew.h[l] } else { 0.0 };
     }
-    out
+    (h, those)
 }

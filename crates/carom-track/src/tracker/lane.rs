@@ -5,6 +5,7 @@ use super::chance::Chance;
 use super::crew::Crew;
 use super::crew::column;
 use super::diffusion::Diffusion;
+use super::gait::Gait;
 use crate::geometry::evaluate;
 use crate::integrate::Lanes3;
 use crate::record::Sink;
@@ -30,6 +31,8 @@ pub(super) struct Lane {
     pub strayed: bool,
     /// The cell of a mesh behind whose side its place was lost.
     pub lost_from: Option<u32>,
+    /// Which kind of step it takes.
+    pub gait: Gait,
     /// What changes at random.
     pub chance: Chance,
     /// How it diffuses.
@@ -58,6 +61,7 @@ impl Lane {
         trace: false,
         strayed: false,
         lost_from: None,
+        gait: Gait::new(0.0),
         chance: Chance::NONE,
         diffusion: Diffusion::NONE,
     };
@@ -66,6 +70,7 @@ impl Lane {
     #[inline(always)]
     pub fn begin(&mut self, particle: Particle, trace: bool, has_chance: bool) {
         self.particle = particle;
+        self.gait = Gait::new(particle.time);
         (self.impacts, self.standing, self.edges, self.round) = (0, 0, 0, 0);
         (self.fitted, self.trace, self.strayed, self.lost_from) = (false, trace, false, None);
         if has_chance {

@@ -107,12 +107,7 @@ impl<D: Domain> Walk<'_, D> {
         sink: &mut dyn Sink,
     ) {
         let (began, until) = (crew.time[l], crew.stop[l]);
-        let mut body = crew.bodies.one(l);
-        // a sphere that follows the fluid has its gust as it changes
-        if self.drifts() && !crew.follows[l] {
-            body.eddy = [Some(crew.lanes[l].chance.midway(until - began))];
-            body.drift = [[0.0]; 3];
-        }
+        let body = crew.bodies.one(l);
         let mut contact = self.contact(crew, l, hit, after).pressed_by_chance(&body, until);
         let (number, traced) = (crew.lanes[l].particle.number, crew.lanes[l].trace);
         for _ in 0..WEDGED {

@@ -269,6 +269,7 @@ fn a_spinning_sphere_is_lifted_and_slows_down() {
 mod any_walls;
 mod cells;
 mod cells_brownian;
+mod cells_walks;
 mod contact;
 mod contact_round;
 mod follows;

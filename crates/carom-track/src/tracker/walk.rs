@@ -45,13 +45,15 @@ pub(super) struct Acting<'a, const W: usize, D: Domain> {
     pub dynamics: &'a Dynamics,
     pub domain: &'a D,
     pub here: &'a D::Many<W>,
+    /// Whose forces are asked for.
+    pub wanted: &'a [bool; W],
     pub bodies: &'a Bodies<W>,
 }
 
 impl<const W: usize, D: Domain> Derivative<W> for Acting<'_, W, D> {
     #[inline(always)]
     fn rates(&self, time: &Lanes<W>, motion: &Motion<W>, out: &mut Rates<W>) {
-        self.dynamics.rates(self.domain, self.here, time, self.bodies, motion, out);
+        self.dynamics.rates(self.domain, self.here, self.wanted, time, self.bodies, motion, out);
     }
 }
 
@@ -77,6 +79,7 @@ impl<D: Domain> Walk<'_, D> {
             if !working {
                 return;
             }
+            self.choose_gaits(&mut crew);
             if !self.domain.is_one_piece() {
                 self.limit(&mut crew);
             }
@@ -225,7 +228,8 @@ impl<D: Domain> Walk<'_, D> {
             return;
         }
         if self.dynamics.is_plain(self.domain) {
-            self.dynamics.rates(self.domain, &crew.here, &crew.time, &crew.bodies, &crew.motion, &mut crew.rates);
+            let Crew { here, busy, time, bodies, motion, rates, .. } = crew;
+            self.dynamics.rates(self.domain, here, busy, time, bodies, motion, rates);
         } else {
             for l in 0..W {
                 if crew.stale[l] {
@@ -259,7 +263,7 @@ impl<D: Domain> Walk<'_, D> {
         let column = |v: Vec3| [[v[0]], [v[1]], [v[2]]];
         let one = Motion::<1> { x: column(x), v: column(v), spin: column(spin) };
         let mut rates = Rates::ZERO;
-        self.dynamics.rates(self.domain, &D::Many::all(here), &[time], body, &one, &mut rates);
+        self.dynamics.rates(self.domain, &D::Many::all(here), &[true], &[time], body, &one, &mut rates);
         rates
     }
 

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::random::{Purpose, Stream};
+use crate::vector::dot;
 
 pub(super) const NU: f64 = 1.5e-5;
 

@@ -4,6 +4,7 @@ use super::tests::NU;
 use super::*;
 use crate::flow::{Fluid, Pipe, Profile};
 use crate::random::{Purpose, Stream};
+use crate::vector::dot;
 use std::f64::consts::PI;
 
 const BINS: usize = 20;

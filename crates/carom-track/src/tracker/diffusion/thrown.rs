@@ -72,10 +72,11 @@ impl<D: Domain> Walk<'_, D> {
         let (x, v, spin) = motion_of(&crew.motion, l);
         let start = Motion { x: one(x), v: one(v), spin: one(spin) };
         let mut first = Rates::ZERO;
-        self.dynamics.rates(self.domain, &here, &time, &leant, &start, &mut first);
+        self.dynamics.rates(self.domain, &here, &[true], &time, &leant, &start, &mut first);
         let place = self.dynamics.need_place(self.domain);
         let control = Control { tolerance: self.per_step(), spins: self.dynamics.spins(), place };
-        let forces = Acting { dynamics: self.dynamics, domain: self.domain, here: &here, bodies: &leant };
+        let forces =
+            Acting { dynamics: self.dynamics, domain: self.domain, here: &here, wanted: &[true], bodies: &leant };
         let mut out = Step::ZERO;
         step(&time, &start, &first, &[h], control, &forces, &mut out);
         out

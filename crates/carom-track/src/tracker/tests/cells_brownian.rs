@@ -33,7 +33,9 @@ fn fly(domain: &AnyDomain, until: f64, starts: &[Particle]) -> Log {
     let mut log = Log::default();
     tracker.run(&mut starts.iter().copied(), &mut log).unwrap();
     assert!(log.stalled == 0 && log.ends.len() == starts.len());
-    assert!(log.ends.iter().all(|e| matches!(e.fate, ParticleFate::Airborne | ParticleFate::Trapped)));
+    // of very many some start touching a wall
+    let known = [ParticleFate::Airborne, ParticleFate::Trapped, ParticleFate::Overlapping];
+    assert!(log.ends.iter().all(|e| known.contains(&e.fate)));
     log
 }
 
