@@ -105,8 +105,8 @@ impl<D: Domain> Walk<'_, D> {
         let nu = self.properties(crew.here.get(l), crew.time[l], x).kinematic_viscosity();
         let fluid = Near { domain: self.domain, piece: crew.here.get(l), time: crew.time[l] };
         let (_, change) = run_scalar(Fluctuation { walk, fluid, x, nu, deviates: missing });
-        for c in 0..3 {
-            crew.motion.v[c][l] = share.mul_add(change[c], crew.motion.v[c][l]);
+        for (v, change) in crew.motion.v.iter_mut().zip(change) {
+            v[l] = share.mul_add(change, v[l]);
         }
     }
 

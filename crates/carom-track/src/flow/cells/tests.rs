@@ -181,15 +181,13 @@ fn distance_and_friction_of_a_wall_are_those_of_a_shear_flow() {
 #[test]
 fn on_seams_the_direction_of_walls_is_that_of_the_whole_body() {
     // midway between floor and ceiling the direction is made of turned tetrahedra on one side of the seam alone
-    let kinds: [(&str, fn(&str) -> PatchKind); 2] = [
-        ("mirrors", |name| if matches!(name, "left" | "right") { PatchKind::Symmetry } else { PatchKind::Wall }),
-        ("cyclic", |name| match name {
+    for what in ["mirrors", "cyclic"] {
+        let kind = |name: &str| match name {
+            "left" | "right" if what == "mirrors" => PatchKind::Symmetry,
             "left" => PatchKind::Cyclic { partner: 1, carry: Carry::by([1.0, 0.0, 0.0]) },
             "right" => PatchKind::Cyclic { partner: 0, carry: Carry::by([-1.0, 0.0, 0.0]) },
             _ => PatchKind::Wall,
-        }),
-    ];
-    for (what, kind) in kinds {
+        };
         let mut mesh = block(Kind::Hexahedra, [4, 4, 3], |x| [x[0], x[1] + 0.3 * x[1] * (1.0 - x[1]) * x[2], x[2]]);
         for (at, x) in mesh.points.iter_mut().enumerate() {
             // inside, not the same on both sides
