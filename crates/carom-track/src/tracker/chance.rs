@@ -80,6 +80,12 @@ impl<D: Domain> Walk<'_, D> {
         self.dynamics.random_walk.is_some_and(|walk| walk.drift)
     }
 
+    /// Whether they do so within a step. Steps of spheres that molecules kick take the eddy of their middle.
+    #[inline(always)]
+    pub(super) fn leans(&self) -> bool {
+        self.drifts() && !self.dynamics.brownian
+    }
+
     /// Lets a lane's deviates drift with the time from here on: a fluctuation that jumped from step to step would hold the steps down to
     /// what the drag allows.
     pub(super) fn lean<const W: usize>(&self, crew: &mut Crew<W, D::Many<W>>, l: usize) {
@@ -91,13 +97,20 @@ impl<D: Domain> Walk<'_, D> {
         crew.stale[l] = true;
     }
 
-    /// Gives a lane's sphere what it would have of a drift that is now known to differ by the end of a step (s) from what the step took it
-    /// for: that much less is left to relax.
-    fn catch_up<const W: usize>(&self, crew: &mut Crew<W, D::Many<W>>, l: usize, walk: &RandomWalk, step: f64) {
-        let Some(taken) = crew.bodies.eddy[l] else { return };
+    /// As [`Walk::renew`] after a step in flight. The drift is now known to differ by the end of the step from what the step took it for: the
+    /// sphere gets what it would have of that, and has that much less to relax.
+    pub(super) fn renew_in_flight<const W: usize>(&self, crew: &mut Crew<W, D::Many<W>>, l: usize, step: f64) {
+        let Some(walk) = self.dynamics.random_walk.as_ref().filter(|_| self.leans()) else {
+            self.renew(crew, l, step);
+            return;
+        };
         let age = crew.time[l] - crew.bodies.since[l];
-        let now = crew.lanes[l].chance.eddy.deviates;
-        let missing = [0, 1, 2].map(|c| now[c] - crew.bodies.drift[c][l].mul_add(age, taken.deviates[c]));
+        let taken = crew.bodies.eddy[l].unwrap_or(Eddy::NONE).deviates;
+        let taken = [0, 1, 2].map(|c| crew.bodies.drift[c][l].mul_add(age, taken[c]));
+        if self.renew(crew, l, step) {
+            return;
+        }
+        let missing = sub(crew.lanes[l].chance.eddy.deviates, taken);
         let z = step * crew.rates.drag[l];
         // the drift changed evenly over the step, what is missing grew with the square of the time: v' = β (u − v) of that
         let share = if z > 0.01 { 1.0 - 2.0 / z + 2.0 * (1.0 - exp(-z)) / (z * z) } else { z / 3.0 - z * z / 12.0 };
@@ -110,8 +123,9 @@ impl<D: Domain> Walk<'_, D> {
         }
     }
 
-    /// Brings chance up to a lane's time and place, `step` after it last was, draws what is due, and says when to stop next.
-    pub(super) fn renew<const W: usize>(&self, crew: &mut Crew<W, D::Many<W>>, l: usize, step: f64) {
+    /// Brings chance up to a lane's time and place, `step` after it last was, draws what is due, and says when to stop next. Whether
+    /// another eddy was met.
+    pub(super) fn renew<const W: usize>(&self, crew: &mut Crew<W, D::Many<W>>, l: usize, step: f64) -> bool {
         let mut changed = false;
         match &self.dynamics.random_walk {
             Some(walk) => {
@@ -120,8 +134,6 @@ impl<D: Domain> Walk<'_, D> {
                 changed = self.renew_eddy(walk, &mut crew.lanes[l], place, v, step);
                 if changed {
                     crew.bodies.eddy[l] = Some(crew.lanes[l].chance.eddy);
-                } else if walk.drift && step > 0.0 {
-                    self.catch_up(crew, l, walk, step);
                 }
             }
             None => crew.lanes[l].chance.look = f64::INFINITY,
@@ -130,11 +142,12 @@ impl<D: Domain> Walk<'_, D> {
         if changed {
             self.begin_anew(crew, l);
         }
-        if self.drifts() {
+        if self.leans() {
             self.lean(crew, l);
         }
         let (time, next) = (crew.time[l], crew.lanes[l].chance.next());
         crew.stop[l] = if next > time { self.settings.until.min(next) } else { self.settings.until };
+        changed
     }
 
     /// Ages the eddy of a sphere that is at a place with velocity `v` (m/s), after a step (s); whether another one was met.

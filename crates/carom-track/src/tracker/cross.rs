@@ -3,7 +3,7 @@
 #![allow(clippy::needless_range_loop, reason = "one index runs through several arrays of lanes or components")]
 
 use super::ahead::Met;
-use super::crew::Crew;
+use super::crew::{Crew, column};
 use super::walk::{least_step, lose};
 use super::{Walk, lane, meeting};
 use crate::domain::{Carry, Domain, Edges, Pieces};
@@ -112,6 +112,10 @@ impl<D: Domain> Walk<'_, D> {
             if let Some(eddy) = &mut crew.bodies.eddy[l] {
                 eddy.deviates = carry.vector(eddy.deviates);
             }
+            let drift = carry.vector(column(&crew.bodies.drift, l));
+            for (lanes, drift) in crew.bodies.drift.iter_mut().zip(drift) {
+                lanes[l] = drift;
+            }
             if crew.lanes[l].trace {
                 sink.point(crew.lanes[l].particle.number, crew.time[l], x, v, spin);
             }
@@ -133,7 +137,7 @@ impl<D: Domain> Walk<'_, D> {
         }
         crew.quiet[l] = mask(lane.is_quiet() && !self.has_chance());
         if theta > 0.0 && self.has_chance() {
-            self.renew(crew, l, theta * h);
+            self.renew_in_flight(crew, l, theta * h);
         }
     }
 }

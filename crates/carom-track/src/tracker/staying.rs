@@ -107,7 +107,10 @@ impl<D: Domain> Walk<'_, D> {
         sink: &mut dyn Sink,
     ) {
         let (began, until) = (crew.time[l], crew.stop[l]);
-        let body = crew.bodies.one(l);
+        let mut body = crew.bodies.one(l);
+        if self.drifts() && !self.leans() {
+            body.eddy = [Some(crew.lanes[l].chance.midway(until - began))];
+        }
         let mut contact = self.contact(crew, l, hit, after).pressed_by_chance(&body, until);
         let (number, traced) = (crew.lanes[l].particle.number, crew.lanes[l].trace);
         for _ in 0..WEDGED {

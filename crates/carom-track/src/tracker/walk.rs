@@ -84,7 +84,7 @@ impl<D: Domain> Walk<'_, D> {
                 self.limit(&mut crew);
             }
             crew.set_steps();
-            if self.drifts() {
+            if self.leans() {
                 for l in 0..W {
                     if crew.busy[l] {
                         self.lean(&mut crew, l);
@@ -357,7 +357,7 @@ impl<D: Domain> Walk<'_, D> {
         if stopped && stop >= self.settings.until {
             finish(crew, l, ParticleFate::Airborne, None, sink);
         } else if self.has_chance() {
-            self.renew(crew, l, h);
+            self.renew_in_flight(crew, l, h);
         }
     }
 }
