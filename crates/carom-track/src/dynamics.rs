@@ -5,7 +5,7 @@
 
 #![allow(clippy::needless_range_loop, reason = "one index runs through several arrays of lanes or components")]
 
-use crate::domain::{Domain, Pieces};
+use crate::domain::{Carry, Domain, Pieces};
 use crate::flow::{Fluid, Gas, Local};
 use crate::force::{Drag, Eddy, Forces, RandomWalk, Sphere, relaxation_time};
 use crate::integrate::{Lanes, Lanes3, Motion, Rates};
@@ -79,6 +79,18 @@ impl<const W: usize> Bodies<W> {
             eddy: [self.eddy[l]],
             drift: [[self.drift[0][l]], [self.drift[1][l]], [self.drift[2][l]]],
             since: [self.since[l]],
+        }
+    }
+
+    /// Turns what one of the spheres has of its eddy, where it is carried over.
+    #[inline(always)]
+    pub fn carry(&mut self, l: usize, carry: &Carry) {
+        if let Some(eddy) = &mut self.eddy[l] {
+            eddy.deviates = carry.vector(eddy.deviates);
+        }
+        let drift = carry.vector([self.drift[0][l], self.drift[1][l], self.drift[2][l]]);
+        for c in 0..3 {
+            self.drift[c][l] = drift[c];
         }
     }
 }

@@ -93,7 +93,7 @@ pub use near_wall::NearWall;
 use crate::flow::Local;
 use crate::vector::{Vec3, add, scale, sub};
 use carom::math::{exp, ln};
-use tensor::Tensor;
+use tensor::{Tensor, directions};
 
 /// How the fluctuation that a sphere meets changes in time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -263,7 +263,7 @@ impl RandomWalk {
         let step = REACH * local.wall_distance.min(length).max(REACH * length);
         let here = Tensor::new(self.near_wall, local, nu);
         let mut sum = [0.0; 3];
-        for d in here.directions {
+        for d in directions(local) {
             let there = Tensor::new(self.near_wall, &fluid.at(add(x, scale(d, step))), nu);
             let change = sub(there.apply::<true>(d), here.apply::<true>(d));
             sum = add(sum, scale(change, 1.0 / step));

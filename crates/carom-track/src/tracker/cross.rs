@@ -3,7 +3,7 @@
 #![allow(clippy::needless_range_loop, reason = "one index runs through several arrays of lanes or components")]
 
 use super::ahead::Met;
-use super::crew::{Crew, column};
+use super::crew::Crew;
 use super::walk::{least_step, lose};
 use super::{Walk, lane, meeting};
 use crate::domain::{Carry, Domain, Edges, Pieces};
@@ -109,13 +109,7 @@ impl<D: Domain> Walk<'_, D> {
         if let Some(carry) = carry {
             (x, v, spin) = (carry.point(x), carry.vector(v), carry_spin(carry, spin));
             crew.lanes[l].chance.carry(carry);
-            if let Some(eddy) = &mut crew.bodies.eddy[l] {
-                eddy.deviates = carry.vector(eddy.deviates);
-            }
-            let drift = carry.vector(column(&crew.bodies.drift, l));
-            for (lanes, drift) in crew.bodies.drift.iter_mut().zip(drift) {
-                lanes[l] = drift;
-            }
+            crew.bodies.carry(l, carry);
             if crew.lanes[l].trace {
                 sink.point(crew.lanes[l].particle.number, crew.time[l], x, v, spin);
             }

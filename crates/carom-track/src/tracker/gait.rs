@@ -13,7 +13,7 @@ use crate::domain::Domain;
 use crate::lanes::{bits, mask, take_lowest};
 
 /// Steps after which the kind is looked at again.
-pub(super) const WHILE: u64 = 64;
+const WHILE: u64 = 64;
 /// Explicit steps of more relaxation times than this are likely held by the drag, and with less the drag holds nothing: where the fluid's
 /// velocity goes on without a jump, as they may reach three, and where it does not, as in a walk. A trial costs more in the first case, where
 /// all lanes take both kinds of steps side by side.

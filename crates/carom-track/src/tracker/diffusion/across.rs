@@ -119,9 +119,7 @@ impl<D: Domain> Walk<'_, D> {
         let (x, v, spin) = motion_of(&crew.motion, l);
         put(crew, l, carry.point(x), carry.vector(v), carry_spin(carry, spin));
         crew.lanes[l].chance.carry(carry);
-        if let Some(eddy) = &mut crew.bodies.eddy[l] {
-            eddy.deviates = carry.vector(eddy.deviates);
-        }
+        crew.bodies.carry(l, carry);
         let diffusion = &mut crew.lanes[l].diffusion;
         diffusion.slow = carry.vector(diffusion.slow);
         diffusion.jitter = carry.vector(diffusion.jitter);
