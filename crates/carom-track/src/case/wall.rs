@@ -74,7 +74,7 @@ fn shape(at: &At<WallText>, cells: Option<&Cells>, files: &Files, notes: &mut Ve
     }
     if let (Some(name), Some(cells)) = (&text.patch, cells) {
         let patch = cells.patches().iter().find(|p| p.name == name.value);
-        let mesh = patch.and_then(|p| Mesh::new(&cells.wall(p)));
+        let mesh = patch.and_then(|p| cells.wall(p));
         let mesh = mesh.ok_or_else(|| wrong(name, format!("patch '{}' has no face with an area", name.value)))?;
         shapes.push(Shape::Mesh(mesh));
     }

@@ -15,6 +15,7 @@ mod state;
 mod strips;
 mod tetrahedra;
 mod tetrahedron;
+mod walls;
 
 pub(crate) use beyond::carry_spin;
 pub(crate) use near_walls::NearWalls;
@@ -25,7 +26,7 @@ pub use tetrahedron::Tetrahedron;
 use super::Local;
 use super::gas_nodes::GasNodes;
 use crate::geometry::{Bounds, Triangle};
-use crate::vector::{Vec3, add, dot, norm, scale, sub, unit};
+use crate::vector::{Vec3, add, norm, scale, sub, unit};
 use beyond::{Plane, Wedge};
 use carom_cfd::geometry::{base_points, cell_centres_and_volumes, face_centres_and_areas};
 use carom_cfd::{Carry, Field, Patch, PatchKind, Snapshot};
@@ -313,27 +314,6 @@ impl Cells {
     pub fn triangles(&self, patch: &Patch) -> Vec<Triangle> {
         let (from, to) = (self.cut.first[patch.faces.start] as usize, self.cut.first[patch.faces.end] as usize);
         self.cut.triangles[from..to].iter().map(|t| t.map(|p| self.nodes[p as usize].place)).collect()
-    }
-
-    /// The triangles of a patch as a wall: of a plane case far beyond its sides, of a wedge with its neighbours on both sides. Each
-    /// repetition has as many as the patch.
-    pub fn wall(&self, patch: &Patch) -> Vec<Triangle> {
-        const FAR: f64 = 4.0;
-        let triangles = self.triangles(patch);
-        if let Some(plane) = &self.plane {
-            let far = FAR * norm(sub(self.bounds.max, self.bounds.min));
-            let stretch = |x: Vec3| {
-                let side = if dot(x, plane.across) > plane.level { 1.0 } else { -1.0 };
-                add(plane.put(x), scale(plane.across, side * far))
-            };
-            return triangles.iter().map(|t| t.map(stretch)).collect();
-        }
-        let Some(wedge) = &self.wedge else { return triangles };
-        let mut all = triangles.clone();
-        for turn in [-wedge.angle, wedge.angle].map(|a| wedge.turn(a)) {
-            all.extend(triangles.iter().map(|t| t.map(|x| turn.point(x))));
-        }
-        all
     }
 
     /// Whether a point lies in a cell.

@@ -25,7 +25,7 @@ use carom::instructions::{InstructionSet, Work};
 use carom::math::Fma;
 use rayon::prelude::*;
 use rim::Reach;
-use surface::Surface;
+use surface::{Face, Surface};
 use sweep::Sweep;
 use tree::{MIXED, Tree};
 
@@ -45,6 +45,9 @@ pub struct Mesh {
     skin: f64,
     /// The block that it is the surface of, if it is one.
     solid: Option<Bounds>,
+    /// From which place in the list on its triangles are copies of others, and of which.
+    first_copy: u32,
+    copies: Box<[u32]>,
 }
 
 /// Share of the coordinates by which a point stays off.
@@ -70,7 +73,7 @@ impl Work for Meet<'_> {
     #[inline(always)]
     fn run<F: Fma, const LANES: usize>(self, _: F) -> Option<(Meeting, u32)> {
         let (meeting, face) = Sweep::new(self.mesh, self.path, self.reach).first()?;
-        Some((meeting, self.mesh.surface.faces[face as usize].number))
+        Some((meeting, self.mesh.number(&self.mesh.surface.faces[face as usize])))
     }
 }
 
@@ -97,7 +100,22 @@ impl Mesh {
         surface.arrange(sides, &order);
         tree.name_flats(&surface.faces.iter().map(|f| if f.rim == 0 { f.flat } else { MIXED }).collect::<Vec<_>>());
         let (bounds, size) = (tree.bounds(), tree.leaf_size());
-        Some(Self { surface: Box::new(surface), tree, bounds, size, skin: SKIN * largest, solid: None })
+        let (skin, first_copy, copies) = (SKIN * largest, u32::MAX, Box::new([]));
+        Some(Self { surface: Box::new(surface), tree, bounds, size, skin, solid: None, first_copy, copies })
+    }
+
+    /// Triangles of which some stand in other places too, as seen where the space goes on elsewhere. Such a copy, given with the place in
+    /// the list of what it copies, is met like all others, under the name of that one.
+    pub fn with_copies(triangles: &[Triangle], copies: &[(u32, Triangle)]) -> Option<Self> {
+        let all: Vec<Triangle> = triangles.iter().copied().chain(copies.iter().map(|(_, copy)| *copy)).collect();
+        let first_copy = u32::try_from(triangles.len()).unwrap_or(u32::MAX);
+        Some(Self { first_copy, copies: copies.iter().map(|(of, _)| *of).collect(), ..Self::new(&all)? })
+    }
+
+    /// The place in the list given of a face, or of what it copies.
+    fn number(&self, face: &Face) -> u32 {
+        let copied = face.number.checked_sub(self.first_copy).and_then(|copy| self.copies.get(copy as usize));
+        copied.copied().unwrap_or(face.number)
     }
 
     /// The outside of a block along the axes: twelve triangles.
@@ -135,9 +153,10 @@ impl Mesh {
         self.surface.left_out
     }
 
-    /// The triangles with their places in the list given, in that order.
+    /// The triangles with their places in the list given, in that order; copies aside.
     pub fn triangles(&self) -> Vec<(u32, Triangle)> {
-        let mut all: Vec<_> = self.surface.faces.iter().map(|f| (f.number, self.surface.triangle(f))).collect();
+        let own = self.surface.faces.iter().filter(|f| f.number < self.first_copy);
+        let mut all: Vec<_> = own.map(|f| (f.number, self.surface.triangle(f))).collect();
         all.sort_unstable_by_key(|(number, _)| *number);
         all
     }

@@ -268,6 +268,7 @@ fn a_spinning_sphere_is_lifted_and_slows_down() {
 
 mod any_walls;
 mod cells;
+mod cells_beyond;
 mod cells_brownian;
 mod cells_walks;
 mod contact;

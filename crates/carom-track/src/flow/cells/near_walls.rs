@@ -43,8 +43,7 @@ impl NearWalls {
                 let (distance, rub) = match &wall.shape {
                     Shape::Mesh(mesh) => {
                         let Some((face, distance)) = mesh.nearest_face(x) else { continue };
-                        // repetitions of a wedge count on
-                        (distance, friction.get(face as usize % friction.len().max(1)).copied().unwrap_or(0.0))
+                        (distance, friction.get(face as usize).copied().unwrap_or(0.0))
                     }
                     shape => (shape.distance(x).abs(), 0.0),
                 };

@@ -3,7 +3,7 @@
 
 use crate::vector::{Vec3, dot, scale, sub, unit};
 use carom_cfd::{Carry, Mesh, PatchKind};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 
 /// The points on seams.
 #[derive(Debug)]
@@ -15,6 +15,9 @@ pub(super) struct Seams {
     /// Points on the sides of a wedge likewise: mirrors of what has no swirl.
     sides: Vec<(u32, Vec3)>,
 }
+
+/// Places on cyclic patches, by their bits, and those of their partners, m.
+pub(super) type Places = HashMap<[u64; 3], Vec3>;
 
 /// Normals whose cosine differs less from one are those of one plane.
 const SAME: f64 = 1e-6;
@@ -35,6 +38,12 @@ impl Seams {
             values[*from as usize] = add(a, back);
             values[*to as usize] = add(there, b);
         }
+    }
+
+    /// Where the partners of the points on cyclic patches are.
+    pub fn places(&self, place: impl Fn(u32) -> Vec3) -> Places {
+        let both = self.pairs.iter().flat_map(|(from, to, _)| [(*from, *to), (*to, *from)]);
+        both.map(|(from, to)| (place(from).map(f64::to_bits), place(to))).collect()
     }
 
     /// A velocity less what leads through planes of symmetry, at the points on them.

@@ -147,11 +147,9 @@ fn a_point_is_in_the_tetrahedron_found_and_none_is_found_outside() {
 
 /// What is known of some patches as solid walls, the others open.
 fn between(cells: &Cells, solid: &[&str], nu: f64) -> NearWalls {
-    use crate::geometry::{Mesh, Shape, Wall};
-    let wall = |p: &Patch| Wall {
-        patch: Some(p.name.clone()),
-        ..Wall::new(&p.name, Shape::Mesh(Mesh::new(&cells.wall(p)).unwrap()))
-    };
+    use crate::geometry::{Shape, Wall};
+    let wall =
+        |p: &Patch| Wall { patch: Some(p.name.clone()), ..Wall::new(&p.name, Shape::Mesh(cells.wall(p).unwrap())) };
     let walls: Vec<Wall> = cells.patches().iter().map(wall).collect();
     let open: Vec<bool> = walls.iter().map(|w| !solid.contains(&w.name.as_str())).collect();
     NearWalls::new(cells, &walls, &open, nu).unwrap()

@@ -27,7 +27,7 @@ impl Mesh {
     /// The nearest triangle's place in the list given, and its distance, m.
     pub(crate) fn nearest_face(&self, x: Vec3) -> Option<(u32, f64)> {
         let (face, foot) = self.nearest(x)?;
-        Some((self.surface.faces[face as usize].number, norm(sub(x, foot))))
+        Some((self.number(&self.surface.faces[face as usize]), norm(sub(x, foot))))
     }
 
     /// Distance of a point from the nearest triangle, on whichever side, m; `None` if it is at least `far`.
@@ -108,7 +108,7 @@ impl Mesh {
                 return false;
             }
             if self.surface.is_over(face, x, reach.beside()) {
-                tell(face.number, scale(flat.normal, height.signum()), height.abs() - reach.clearance);
+                tell(self.number(face), scale(flat.normal, height.signum()), height.abs() - reach.clearance);
                 return false;
             }
             let (foot, part) = nearest(&self.surface.triangle(face), x);
@@ -118,7 +118,7 @@ impl Mesh {
                 && self.leads_away(face, part, foot, away, reach)
                 && !self.is_on_a_face(x, foot, reach)
             {
-                tell(face.number, away, gap);
+                tell(self.number(face), away, gap);
             }
             false
         });

@@ -1,10 +1,11 @@
 //! Through meshes of cells: what comes out does not depend on how the space is cut.
 
+use super::cells_beyond::sides;
 use super::*;
-use crate::domain::{Carry, Meshed};
+use crate::domain::Meshed;
 use crate::flow::cells::tests::{Dice, shaken, with_cell_velocity, with_velocity};
 use crate::flow::{Cells, Stagnation, Symmetry};
-use crate::geometry::{Mesh, Room, Walls};
+use crate::geometry::{Room, Walls};
 use carom_cfd::block::{Kind, SIDES, block};
 use carom_cfd::{PatchKind, Snapshot};
 use std::sync::Arc;
@@ -12,15 +13,16 @@ use std::sync::Arc;
 /// A domain whose patches are all walls, in their order.
 pub(super) fn domain(snapshot: &Snapshot) -> AnyDomain {
     let cells = Arc::new(Cells::new(snapshot).unwrap());
-    let walls = cells.patches().iter().filter(|p| p.kind == PatchKind::Wall).map(|p| Wall {
-        patch: Some(p.name.clone()),
-        ..Wall::new(&p.name, Shape::Mesh(Mesh::new(&cells.wall(p)).unwrap()))
-    });
+    let walls = cells
+        .patches()
+        .iter()
+        .filter(|p| p.kind == PatchKind::Wall)
+        .map(|p| Wall { patch: Some(p.name.clone()), ..Wall::new(&p.name, Shape::Mesh(cells.wall(p).unwrap())) });
     let walls: Vec<Wall> = walls.collect();
     AnyDomain::new(Flow::Cells(cells), walls)
 }
 
-fn fly(domain: &AnyDomain, d: &Dynamics, behavior: Behavior, until: f64, starts: &[Particle]) -> Log {
+pub(super) fn fly(domain: &AnyDomain, d: &Dynamics, behavior: Behavior, until: f64, starts: &[Particle]) -> Log {
     let behaviors = vec![behavior; domain.walls().len()];
     let settings = Settings { until, ..settings() };
     let mut log = Log::default();
@@ -31,13 +33,13 @@ fn fly(domain: &AnyDomain, d: &Dynamics, behavior: Behavior, until: f64, starts:
 }
 
 /// Drag alone: spheres that do not come to rest.
-fn floating(drag: Drag) -> Dynamics {
+pub(super) fn floating(drag: Drag) -> Dynamics {
     let mut d = dynamics(drag);
     d.forces.gravity = [0.0; 3];
     d
 }
 
-fn starts(count: u64, seed: u64, v: f64) -> Vec<Particle> {
+pub(super) fn starts(count: u64, seed: u64, v: f64) -> Vec<Particle> {
     let mut dice = Dice::new(seed);
     let mut start = |i| {
         let x = dice.point().map(|c| 0.05 + 0.9 * c);
@@ -287,168 +289,6 @@ fn poiseuille_s_flow_on_any_mesh_deposits_as_the_formula_does_the_better_the_fin
         };
         let (coarse, fine) = (error(6), error(18));
         assert!(fine < 0.02 && fine < 0.35 * coarse, "{kind:?}: {coarse} {fine}");
-    }
-}
-
-/// A block of that many hexahedra with the kinds of its six patches.
-pub(super) fn sides(n: [usize; 3], kinds: impl Fn(&str) -> PatchKind, place: impl Fn(Vec3) -> Vec3) -> carom_cfd::Mesh {
-    let mut mesh = block(Kind::Hexahedra, n, place);
-    for patch in &mut mesh.patches {
-        patch.kind = kinds(&patch.name);
-    }
-    mesh
-}
-
-#[test]
-fn a_plane_of_symmetry_is_a_mirror() {
-    // half of the box, mirrored at x = 1, against the whole one
-    let half = sides([4, 3, 2], |name| if name == "right" { PatchKind::Symmetry } else { PatchKind::Wall }, |x| x);
-    let whole = block(Kind::Hexahedra, [8, 3, 2], |x| [2.0 * x[0], x[1], x[2]]);
-    let u = |x: Vec3| [(1.0 - x[0]) * x[1], 0.3 * (1.0 - x[0]) * (1.0 - x[0]), 0.0];
-    let (half, whole) = (domain(&with_velocity(half, u)), domain(&with_velocity(whole, u)));
-    let starts = starts(20, 13, 4.0);
-    let d = floating(Drag::None);
-    let (got, want) = (fly(&half, &d, bounce(0.8), 1.0, &starts), fly(&whole, &d, bounce(0.8), 1.0, &starts));
-    let mut crossed = 0;
-    for (got, want) in got.ends.iter().zip(&want.ends) {
-        let x = want.position;
-        crossed += usize::from(x[0] > 1.0);
-        let folded = [if x[0] > 1.0 { 2.0 - x[0] } else { x[0] }, x[1], x[2]];
-        let off = crate::vector::norm(crate::vector::sub(got.position, folded));
-        assert!(off < 5e-6, "{}: {off:e} {:?} {folded:?}", got.particle.number, got.position);
-    }
-    assert!(crossed > 3, "{crossed}");
-}
-
-#[test]
-fn cyclic_patches_carry_over() {
-    let kind = |partner, by| PatchKind::Cyclic { partner, carry: Carry::by([by, 0.0, 0.0]) };
-    goes_on_as_the_long_one(kind, |x| x, |x| [9.0 * x[1] * (1.0 - x[1]), 0.0, 0.2]);
-}
-
-#[test]
-fn cyclic_patches_whose_faces_do_not_match_carry_over() {
-    let kind = |partner, by| PatchKind::CyclicAmi { partner, carry: Carry::by([by, 0.0, 0.0]) };
-    // the points of the right side are not those of the left one; an even flow is the same on any cells
-    let place = |x: Vec3| [x[0], x[1] + 0.4 * x[0] * x[1] * (1.0 - x[1]), x[2] - 0.3 * x[0] * x[2] * (1.0 - x[2])];
-    goes_on_as_the_long_one(kind, place, |_| [3.0, 0.4, 0.2]);
-}
-
-/// A box that goes on from right to left, with `place` for its points, against four of it in a row.
-fn goes_on_as_the_long_one(
-    kind: impl Fn(usize, f64) -> PatchKind,
-    place: impl Fn(Vec3) -> Vec3,
-    u: impl Fn(Vec3) -> Vec3,
-) {
-    let kinds = |name: &str| match name {
-        "left" => kind(1, 1.0),
-        "right" => kind(0, -1.0),
-        _ => PatchKind::Wall,
-    };
-    let one = sides([4, 3, 2], kinds, place);
-    let four = block(Kind::Hexahedra, [16, 3, 2], |x| [4.0 * x[0] - 1.0, x[1], x[2]]);
-    let (one, four) = (domain(&with_velocity(one, &u)), domain(&with_velocity(four, &u)));
-    let starts = starts(20, 14, 2.0);
-    let d = floating(Drag::SchillerNaumann);
-    let (got, want) = (fly(&one, &d, bounce(0.8), 0.4, &starts), fly(&four, &d, bounce(0.8), 0.4, &starts));
-    let mut crossed = 0;
-    for (got, want) in got.ends.iter().zip(&want.ends) {
-        let x = want.position;
-        crossed += usize::from(!(0.0..1.0).contains(&x[0]));
-        let off = crate::vector::norm(crate::vector::sub(got.position, [x[0].rem_euclid(1.0), x[1], x[2]]));
-        assert!(off < 5e-6, "{}: {off:e}", got.particle.number);
-    }
-    assert!(crossed > 3, "{crossed}");
-}
-
-#[test]
-fn a_plane_case_goes_on_across() {
-    // one cell deep, and spheres that move across it for ever
-    let kinds = |name: &str| if matches!(name, "back" | "front") { PatchKind::Empty } else { PatchKind::Wall };
-    let plane = sides([5, 4, 1], kinds, |x| [x[0], x[1], 0.01 * x[2]]);
-    let deep = block(Kind::Hexahedra, [5, 4, 3], |x| [x[0], x[1], 9.0 * x[2] - 4.5]);
-    let u = |x: Vec3| [x[1], 0.5 * x[0], 0.0];
-    let (plane, deep) = (domain(&with_velocity(plane, u)), domain(&with_velocity(deep, u)));
-    let starts = starts(20, 15, 2.0);
-    let d = floating(Drag::SchillerNaumann);
-    let (got, want) = (fly(&plane, &d, Behavior::Escape, 1.0, &starts), fly(&deep, &d, Behavior::Escape, 1.0, &starts));
-    for (got, want) in got.ends.iter().zip(&want.ends) {
-        assert_eq!(got.fate, want.fate);
-        let off = crate::vector::norm(crate::vector::sub(got.position, want.position));
-        assert!(off < 1e-5, "{}: {off:e} {:?} {:?}", got.particle.number, got.position, want.position);
-    }
-}
-
-#[test]
-fn a_wedge_goes_on_round_its_axis() {
-    // 5 degrees of a pipe of 1 m, along x; spheres fly as in the whole pipe
-    let half = 2.5f64.to_radians();
-    let kinds = |name: &str| match name {
-        "back" | "front" => PatchKind::Wedge,
-        "bottom" => PatchKind::Wall,
-        _ => PatchKind::Wall,
-    };
-    let place = |x: Vec3| {
-        let (r, turn) = (x[1], (2.0 * x[2] - 1.0) * half);
-        let (s, c) = carom::math::sin_cos(turn);
-        [2.0 * x[0], r * c, r * s]
-    };
-    let mut mesh = sides([6, 8, 1], kinds, place);
-    // the axis is no patch
-    mesh.patches[2].kind = PatchKind::Empty;
-    let empty = mesh.patches[2].faces.clone();
-    drop_faces(&mut mesh, empty);
-    let cells = Arc::new(Cells::new(&with_velocity(mesh, |_| [1.0, 0.0, 0.0])).unwrap());
-    let outer = cells.patches().iter().find(|p| p.name == "top").unwrap();
-    let wall = |name: &str| {
-        let patch = cells.patches().iter().find(|p| p.name == name).unwrap();
-        Wall { patch: Some(name.into()), ..Wall::new(name, Shape::Mesh(Mesh::new(&cells.wall(patch)).unwrap())) }
-    };
-    assert!(!outer.faces.is_empty());
-    let domain = AnyDomain::new(Flow::Cells(cells.clone()), vec![wall("left"), wall("right"), wall("top")]);
-    let d = floating(Drag::None);
-    let mut dice = Dice::new(6);
-    for i in 0..160 {
-        let (r, v) = (0.1 + 0.7 * dice.roll(), dice.point().map(|c| 2.0 * c - 1.0));
-        // in the middle plane, a few straight through the axis
-        let beside = 10f64.powi(-(i as i32 % 16));
-        let v = if i % 4 == 1 {
-            // past the axis at any distance
-            [0.1 * v[0], -1.0, beside * v[2]]
-        } else if i % 4 == 0 {
-            [0.1 * v[0], -v[1].abs() - 0.1, 0.0]
-        } else {
-            [0.1 * v[0], v[1], v[2]]
-        };
-        let start = Particle::sphere(i, 1e-6, 1000.0, [1.0, r, 0.0], v);
-        let log = fly(&domain, &d, Behavior::Escape, 0.8, &[start]);
-        let end = log.ends[0];
-        let free = [0, 1, 2].map(|c| start.position[c] + end.time * v[c]);
-        let radius = |x: Vec3| (x[1] * x[1] + x[2] * x[2]).sqrt();
-        assert_ne!(end.fate, ParticleFate::Stuck, "{i} {start:?}");
-        assert!((radius(end.position) - radius(free)).abs() < 1e-7, "{i} {} {}", radius(end.position), radius(free));
-        assert!((end.position[0] - free[0]).abs() < 1e-7);
-        if end.fate == ParticleFate::Escaped {
-            // the wall is a polygon: between r cos 2.5° and r
-            assert!(radius(free) > half.cos() - 1e-6 && radius(free) < 1.0 + 1e-6, "{i} {}", radius(free));
-        }
-    }
-}
-
-/// Takes faces of no area out of a mesh.
-pub(super) fn drop_faces(mesh: &mut carom_cfd::Mesh, faces: std::ops::Range<usize>) {
-    let keep: Vec<usize> = (0..mesh.faces.len()).filter(|f| !faces.contains(f)).collect();
-    let mut kept = carom_cfd::Polygons { starts: vec![0], corners: Vec::new() };
-    for f in &keep {
-        kept.corners.extend(mesh.faces.get(*f));
-        kept.starts.push(kept.corners.len() as u32);
-    }
-    mesh.owner = keep.iter().map(|f| mesh.owner[*f]).collect();
-    mesh.faces = kept;
-    let gone = faces.len();
-    mesh.patches.retain(|p| p.faces != faces);
-    for patch in mesh.patches.iter_mut().filter(|p| p.faces.start >= faces.end) {
-        patch.faces = patch.faces.start - gone..patch.faces.end - gone;
     }
 }
 

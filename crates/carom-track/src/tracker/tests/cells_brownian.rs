@@ -1,7 +1,8 @@
 //! Brownian spheres in meshes whose space goes on elsewhere: as in the whole body, and as theory has it. The seeds are fixed; bounds are four
 //! standard errors.
 
-use super::cells::{domain, drop_faces, sides};
+use super::cells::domain;
+use super::cells_beyond::{drop_faces, sides};
 use super::*;
 use crate::domain::Carry;
 use crate::flow::cells::tests::{Dice, with_cell_velocity, with_velocity};

@@ -1,6 +1,7 @@
 //! Random walks through meshes whose space goes on elsewhere: nothing holds spheres there. Seeds are fixed.
 
-use super::cells::{domain, drop_faces, sides};
+use super::cells::domain;
+use super::cells_beyond::{drop_faces, sides};
 use super::*;
 use crate::domain::Carry;
 use crate::flow::cells::tests::{Dice, shaken, with_velocity};
