@@ -9,8 +9,8 @@ use crate::geometry::{Ahead, Hit, Meeting, Path, Walls};
 use crate::integrate::{Lanes, Lanes3};
 use crate::lanes::{Mask, bits, take_lowest};
 use crate::vector::{Vec3, scale, sub, unit};
-use rayon::prelude::*;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, Ordering};
 
 /// A finished CFD result with walls.
 #[derive(Debug)]
@@ -22,23 +22,20 @@ pub struct Meshed {
     shifts: Vec<Carry>,
     /// Of each patch, the index of its wall.
     of_patch: Vec<Option<usize>>,
-    /// Of each cell, a distance from its centre within which there is no wall, m.
-    clear: Vec<f32>,
+    /// Of each cell, a distance from its centre within which there is no wall, m: the bits of an `f32`, or [`ASK`]. Found when a sphere first
+    /// enters the cell, as most runs see few cells of a large mesh; whichever thread finds it, it is the same.
+    clear: Vec<AtomicU32>,
     /// Distance and friction of the solid walls, where it is asked for.
     near: Option<NearWalls>,
 }
 
+/// What no distance has for bits.
+const ASK: u32 = u32::MAX;
+
 impl Meshed {
     /// A flow on cells, and its walls; `of_patch` says which wall each patch is.
     pub fn new(cells: Arc<Cells>, walls: Walls, of_patch: Vec<Option<usize>>) -> Self {
-        let clear = (0..cells.len())
-            .into_par_iter()
-            .map(|cell| {
-                let distance = walls.distance(cells.middle(cell));
-                // never more than it is
-                (distance * (1.0 - 1e-6)) as f32 * (1.0 - 1e-6)
-            })
-            .collect();
+        let clear = (0..cells.len()).map(|_| AtomicU32::new(ASK)).collect();
         let (goes_on, shifts) = (cells.goes_on(), cells.shifts());
         Self { cells, walls, goes_on, shifts, of_patch, clear, near: None }
     }
@@ -59,10 +56,27 @@ impl Meshed {
         Self { walls: self.walls.with_openings(open), ..self }
     }
 
+    /// A distance from a cell's centre within which there is no wall, m.
+    #[inline(always)]
+    fn clear(&self, cell: u32) -> f64 {
+        let known = self.clear[cell as usize].load(Ordering::Relaxed);
+        f64::from(f32::from_bits(if known == ASK { self.find_clear(cell) } else { known }))
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn find_clear(&self, cell: u32) -> u32 {
+        let distance = self.walls.distance(self.cells.middle(cell as usize));
+        // never more than it is
+        let clear = (distance * (1.0 - 1e-6)) as f32 * (1.0 - 1e-6);
+        self.clear[cell as usize].store(clear.to_bits(), Ordering::Relaxed);
+        clear.to_bits()
+    }
+
     #[inline(always)]
     fn prepared(&self, mut tet: Tetrahedron) -> Tetrahedron {
         if !tet.is_nowhere() {
-            tet.clear = f64::from(self.clear[tet.cell as usize]);
+            tet.clear = self.clear(tet.cell);
         }
         tet
     }
@@ -218,7 +232,7 @@ impl Domain for Meshed {
         }
         let (mut into, good) = self.cells.make(&id, &cell, known);
         while let Some(l) = take_lowest(&mut known) {
-            into.clear[l] = f64::from(self.clear[cell[l] as usize]);
+            into.clear[l] = self.clear(cell[l]);
         }
         here.take(&into, &good);
         good

@@ -27,7 +27,7 @@ use rayon::prelude::*;
 use rim::Reach;
 use surface::{Face, Surface};
 use sweep::Sweep;
-use tree::{MIXED, Tree};
+use tree::{Halves, MIXED, Tree};
 
 /// A triangle by its corners, m.
 pub type Triangle = [Vec3; 3];
@@ -96,7 +96,7 @@ impl Mesh {
             return None;
         }
         let boxes: Vec<Bounds> = surface.faces.par_iter().map(|f| Bounds::around(surface.triangle(f))).collect();
-        let (mut tree, order) = Tree::new(&boxes);
+        let (mut tree, order) = Tree::new(&boxes, Halves::LeastArea);
         surface.arrange(sides, &order);
         tree.name_flats(&surface.faces.iter().map(|f| if f.rim == 0 { f.flat } else { MIXED }).collect::<Vec<_>>());
         let (bounds, size) = (tree.bounds(), tree.leaf_size());

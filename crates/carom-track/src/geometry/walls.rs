@@ -175,7 +175,10 @@ impl Walls {
 
     /// Distance of the nearest of them from a point, m.
     pub fn distance(&self, x: Vec3) -> f64 {
-        self.list.iter().map(|w| w.shape.distance(x).abs()).fold(f64::INFINITY, f64::min)
+        self.list.iter().fold(f64::INFINITY, |nearest, wall| match &wall.shape {
+            Shape::Mesh(mesh) => mesh.distance_within(x, nearest).unwrap_or(nearest),
+            shape => nearest.min(shape.distance(x).abs()),
+        })
     }
 
     /// Of each, whether it is an opening.

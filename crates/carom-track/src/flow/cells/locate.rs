@@ -2,7 +2,7 @@
 
 use super::Cells;
 use super::cut::NONE;
-use crate::geometry::{Bounds, Tree};
+use crate::geometry::{Bounds, Halves, Tree};
 use crate::vector::Vec3;
 use rayon::prelude::*;
 
@@ -32,7 +32,7 @@ impl Locator {
                 around.wider(1e-9 * (0..3).map(|c| around.max[c] - around.min[c]).fold(0.0, f64::max))
             })
             .collect();
-        let (tree, order) = Tree::new(&boxes);
+        let (tree, order) = Tree::new(&boxes, Halves::Middle);
         Self { tree, order }
     }
 

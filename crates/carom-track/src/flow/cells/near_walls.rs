@@ -11,7 +11,7 @@
 //! the log layer of the usual wall functions (Launder & Spalding 1974, doi:10.1016/0045-7825(74)90029-2) above the sublayer's edge, the
 //! resolved slope below. In a laminar flow it is the latter.
 
-use super::{C_MU, Cells};
+use super::{C_MU, Cells, Node};
 use crate::flow::Local;
 use crate::geometry::{Shape, Wall};
 use crate::vector::{Vec3, add, cross, dot, norm, scale, sub, unit};
@@ -26,6 +26,9 @@ pub(crate) struct NearWalls {
 /// y⁺ where the sublayer meets the log law: y⁺ = ln(9.8 y⁺)/0.41.
 const SUBLAYER: f64 = 11.225;
 
+/// Nodes that one thread takes at a time.
+const TOGETHER: usize = 1024;
+
 impl NearWalls {
     /// Of a flow between walls, those that are `open` aside; `nu` is the kinematic viscosity, m²/s. None where no wall is solid.
     pub fn new(cells: &Cells, walls: &[Wall], open: &[bool], nu: f64) -> Option<Self> {
@@ -36,13 +39,12 @@ impl NearWalls {
         let patch = |wall: &Wall| cells.patches().iter().position(|p| Some(&p.name) == wall.patch.as_ref());
         let friction: Vec<Vec<f64>> =
             solid.iter().map(|wall| patch(wall).map_or(Vec::new(), |p| cells.frictions(p, nu))).collect();
-        let at = |x: Vec3| {
-            let x = cells.flat(x);
-            let mut nearest = (f64::INFINITY, 0.0);
+        let at = |x: Vec3, far: f64| {
+            let mut nearest = (far, 0.0);
             for (wall, friction) in solid.iter().zip(&friction) {
                 let (distance, rub) = match &wall.shape {
                     Shape::Mesh(mesh) => {
-                        let Some((face, distance)) = mesh.nearest_face(x) else { continue };
+                        let Some((face, distance)) = mesh.nearest_face(x, nearest.0) else { continue };
                         (distance, friction.get(face as usize).copied().unwrap_or(0.0))
                     }
                     shape => (shape.distance(x).abs(), 0.0),
@@ -53,7 +55,18 @@ impl NearWalls {
             }
             [nearest.0, nearest.1]
         };
-        let mut found: Vec<_> = cells.nodes.par_iter().map(|node| at(node.place)).collect();
+        // nodes that follow each other are near each other: the way from one to the next bounds the search
+        let each_of = |nodes: &[Node]| {
+            let (mut from, mut near) = ([0.0; 3], [f64::INFINITY; 2]);
+            let next = |node: &Node| {
+                let x = cells.flat(node.place);
+                near = at(x, (near[0] + norm(sub(x, from))) * (1.0 + 1e-9) + f64::MIN_POSITIVE);
+                from = x;
+                near
+            };
+            nodes.iter().map(next).collect::<Vec<_>>()
+        };
+        let mut found: Vec<_> = cells.nodes.par_chunks(TOGETHER).flat_map_iter(each_of).collect();
         cells.seams.join(&mut found, |_, near| near, |a, b| if b[0] < a[0] { b } else { a });
         let away = cells.away(|node| found[node][0]);
         Some(Self { nodes: found.into_iter().zip(away).map(|([d, rub], [x, y, z])| [d, rub, x, y, z]).collect() })

@@ -101,15 +101,16 @@ impl Nodes<'_> {
 
     /// Each point of each cell once.
     fn each_cell_point(&self, mut tell: impl FnMut(usize, u32)) {
-        let mut points = Vec::new();
+        // of each point, the cell that it was last told of
+        let mut told = vec![u32::MAX; self.mesh.points.len()];
         for cell in 0..self.mesh.cells {
-            points.clear();
             for face in self.cut.faces(cell) {
-                points.extend_from_slice(self.mesh.faces.get(*face as usize));
+                for point in self.mesh.faces.get(*face as usize) {
+                    if std::mem::replace(&mut told[*point as usize], cell as u32) != cell as u32 {
+                        tell(cell, *point);
+                    }
+                }
             }
-            points.sort_unstable();
-            points.dedup();
-            points.iter().for_each(|point| tell(cell, *point));
         }
     }
 }

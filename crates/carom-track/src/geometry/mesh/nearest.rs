@@ -24,9 +24,9 @@ impl Mesh {
         self.nearest_within(x, f64::INFINITY)
     }
 
-    /// The nearest triangle's place in the list given, and its distance, m.
-    pub(crate) fn nearest_face(&self, x: Vec3) -> Option<(u32, f64)> {
-        let (face, foot) = self.nearest(x)?;
+    /// The nearest triangle's place in the list given, and its distance, m; `None` if that is at least `far`.
+    pub(crate) fn nearest_face(&self, x: Vec3, far: f64) -> Option<(u32, f64)> {
+        let (face, foot) = self.nearest_within(x, far)?;
         Some((self.number(&self.surface.faces[face as usize]), norm(sub(x, foot))))
     }
 

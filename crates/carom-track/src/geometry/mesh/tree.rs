@@ -58,6 +58,15 @@ struct Item {
     index: u32,
 }
 
+/// How boxes are put into two parts.
+#[derive(Clone, Copy)]
+pub(crate) enum Halves {
+    /// So that few have to be looked into: for what is asked at every step.
+    LeastArea,
+    /// In the middle of the longest side: made in a fifth of the time, for what is asked seldom.
+    Middle,
+}
+
 enum Branch {
     Leaf(Bounds, Child),
     Fork(Bounds, Box<[Branch; 2]>),
@@ -91,7 +100,7 @@ impl Node {
 
 impl Tree {
     /// Over boxes; the order in which the leaves name them.
-    pub fn new(boxes: &[Bounds]) -> (Self, Vec<u32>) {
+    pub fn new(boxes: &[Bounds], halves: Halves) -> (Self, Vec<u32>) {
         let mut items: Vec<Item> = boxes
             .iter()
             .zip(0..)
@@ -103,7 +112,7 @@ impl Tree {
             .collect();
         let mut tree = Self::default();
         if !items.is_empty() {
-            let root = grow(&mut items, 0, boxes, 0);
+            let root = grow(&mut items, 0, boxes, (halves, 0));
             tree.flatten(&root);
         }
         (tree, items.iter().map(|i| i.index).collect())
@@ -178,19 +187,24 @@ fn area(b: &Bounds) -> f64 {
     s[0] * s[1] + s[1] * s[2] + s[2] * s[0]
 }
 
-fn grow(items: &mut [Item], first: u32, boxes: &[Bounds], depth: u32) -> Branch {
+fn grow(items: &mut [Item], first: u32, boxes: &[Bounds], (how, depth): (Halves, u32)) -> Branch {
     let count = items.len();
-    let middle = if depth < DEEP { split(items) } else { (count > LEAF).then_some(count / 2) };
+    let middle = match how {
+        _ if depth >= DEEP => (count > LEAF).then_some(count / 2),
+        Halves::LeastArea => split(items),
+        Halves::Middle => (count > LEAF).then(|| halve(items)),
+    };
     let Some(middle) = middle else {
         let bounds = items.iter().fold(Bounds::NONE, |all, i| all.union(&boxes[i.index as usize]));
         return Branch::Leaf(bounds, Child { first, count: count as u32, flat: MIXED });
     };
     let (low, high) = items.split_at_mut(middle);
     let second = first + middle as u32;
+    let next = (how, depth + 1);
     let halves = if count > PARALLEL {
-        rayon::join(|| grow(low, first, boxes, depth + 1), || grow(high, second, boxes, depth + 1))
+        rayon::join(|| grow(low, first, boxes, next), || grow(high, second, boxes, next))
     } else {
-        (grow(low, first, boxes, depth + 1), grow(high, second, boxes, depth + 1))
+        (grow(low, first, boxes, next), grow(high, second, boxes, next))
     };
     Branch::Fork(halves.0.bounds().union(halves.1.bounds()), Box::new([halves.0, halves.1]))
 }
@@ -222,6 +236,23 @@ impl Bin {
         let s = [0, 1, 2].map(|c| self.max[c] - self.min[c]);
         (s[0] * s[1] + s[1] * s[2] + s[2] * s[0]) * self.count as f32
     }
+}
+
+/// Puts items on both sides of the middle of their centres and says where the second part begins.
+fn halve(items: &mut [Item]) -> usize {
+    let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+    for item in items.iter() {
+        for c in 0..3 {
+            // twice the centre
+            let center = item.min[c] + item.max[c];
+            (low[c], high[c]) = (low[c].min(center), high[c].max(center));
+        }
+    }
+    let wide = |c: usize| high[c] - low[c];
+    let c = (1..3).fold(0, |widest, c| if wide(c) > wide(widest) { c } else { widest });
+    let middle = low[c] + 0.5 * wide(c);
+    let first = partition(items, |i| i.min[c] + i.max[c] < middle);
+    if first == 0 || first == items.len() { items.len() / 2 } else { first }
 }
 
 /// Puts items into two parts and says where the second begins; none where they are better left together.
