@@ -3,8 +3,9 @@
 #
 #   ./make.sh                        # the stored mesh: 21 600 cells in half the pipe
 #   ./make.sh 3 5 7 23 8 20 FOLDER   # another: cells of the core, the ring, before, round and after the bend, mm straight before it
+#   ./make.sh 6 16 14 45 16 20 FOLDER 40 # innermost cells of the ring 40 times as wide as those at the wall (4): 11 to 16 um there
 . "$(dirname "$0")/../solve.sh"
-cells=(${1:-6} ${2:-9} ${3:-14} ${4:-45} ${5:-16} ${6:-20})
+cells=(${1:-6} ${2:-9} ${3:-14} ${4:-45} ${5:-16} ${6:-20} ${8:-4})
 case=${7:-case}
 [[ $case = case ]] || { mkdir -p "$case"; cp -r case/{0.orig,constant,system} "$case"; }
 mesh() {

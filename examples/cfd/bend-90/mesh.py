@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 """Half a pipe with a 90 degree bend, as blockMesh's dictionary, and the bending itself.
 
-    ./mesh.py dictionary CORE RING BEFORE ROUND AFTER [MM] > system/blockMeshDict # numbers of cells, straight length before the bend
-    ./mesh.py bend constant/polyMesh/points                                       # of the mesh that blockMesh made of it
+    ./mesh.py dictionary CORE RING BEFORE ROUND AFTER [MM [GRADE]] > system/blockMeshDict # numbers of cells, straight length before the bend
+    ./mesh.py bend constant/polyMesh/points                                               # of the mesh that blockMesh made of it
+
+GRADE is how many times wider the ring's innermost cells are than those at the wall.
 
 blockMesh makes the straight pipe along z, x >= 0, a core and a ring round it; then the points are carried round the bend, so that
 every section is a true circle. The bend turns from +z towards +y; its symmetry plane is x = 0.
@@ -17,14 +19,15 @@ LENGTH = math.pi / 2 * BEND
 STRAIGHT = 20                   # before and after, mm
 
 
-def dictionary(core, ring, before, round, after, straight=STRAIGHT):
+def dictionary(core, ring, before, round, after, straight=STRAIGHT, grade=4):
     along = (before, round, after)
     stations = [-1e-3 * straight, 0.0, LENGTH, LENGTH + 1e-3 * STRAIGHT]
     c, h = RADIUS / math.sqrt(2), 0.44 * RADIUS
     section = [(0, -RADIUS), (c, -c), (c, c), (0, RADIUS), (0, -h), (h, -h), (h, h), (0, h)]
     vertices = "\n".join(f"    ({x:.12g} {y:.12g} {z:.12g})" for z in stations for x, y in section)
     # each face of the section: its corners in turn, cells along the first and the second side, grading towards the wall
-    faces = [((4, 5, 6, 7), core, 2 * core, 1), ((0, 1, 5, 4), core, ring, 4), ((5, 1, 2, 6), ring, 2 * core, 0.25), ((7, 6, 2, 3), core, ring, 0.25)]
+    faces = [((4, 5, 6, 7), core, 2 * core, 1), ((0, 1, 5, 4), core, ring, grade),
+             ((5, 1, 2, 6), ring, 2 * core, 1 / grade), ((7, 6, 2, 3), core, ring, 1 / grade)]
     blocks, arcs, walls, mirror = [], [], [], []
     for part, cells in enumerate(along):
         near, far = 8 * part, 8 * part + 8
