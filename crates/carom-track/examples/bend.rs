@@ -1,7 +1,9 @@
 //! Deposition in a 90° bend, over the Stokes number, in the computed flow of `examples/cfd/bend-90` against Pui, Romay-Novas & Liu 1987: how the aerosol
-//! enters, gravity, walls that let spheres bounce.
+//! enters, what happens within a few radii of the wall, gravity, walls that let spheres bounce.
 //!
-//! `cargo run --release -p carom-track --example bend -- OUT [svg|png] [COUNT] [FOLDER]`, COUNT spheres for each point, FOLDER of another mesh's case
+//! `cargo run --release -p carom-track --example bend -- OUT [svg|png] [COUNT] [FOLDER] [center|wall-drag]`, COUNT spheres for each point, FOLDER of
+//! another mesh's case. The last word changes every curve, and gives the shares at the measured points alone: spheres touch with their centres, or
+//! feel the wall in their drag.
 
 mod study;
 
@@ -9,7 +11,7 @@ use carom_report::plot::{Dash, Marker};
 use carom_report::{Axis, Color, Column, Plot, Series, Table};
 use carom_track::force::Sphere;
 use carom_track::record::ParticleFate;
-use study::{CaseFile, Paths, Result, Track, in_parallel, logspace, meters, track, wilson};
+use study::{CaseFile, Paths, Result, Track, in_parallel, logspace, meters, track};
 
 const MEASURED: &str = include_str!("bend-measured.csv");
 const RADIUS: f64 = 5e-3;
@@ -44,14 +46,19 @@ const CURVES: [Curve; 6] = [
         change: |c| c.set("forces.gravity", vec![0.0, 9.81, 0.0]),
         look: (Color::GREY, Dash::Dashed),
     },
-    Curve {
-        label: "gravity, the bend turns up",
-        density: 1000.0,
-        change: |c| c.set("forces.gravity", vec![0.0, -9.81, 0.0]),
-        look: (Color::GREY, Dash::Dotted),
-    },
+    Curve { label: "touching with their centres", density: 1000.0, change: center, look: (Color::BLUE, Dash::Dotted) },
     Curve { label: "glass spheres on steel", density: 2500.0, change: steel, look: (Color::VERMILION, Dash::Solid) },
 ];
+
+/// Spheres that touch with their centres. One that creeps along the wall never does: what has not by the end stays out.
+fn center(case: CaseFile) -> CaseFile {
+    case.set_each("wall", "contact_at", "center").set("run.until", "0.4 s")
+}
+
+/// Spheres that feel the wall in their drag.
+fn wall_drag(case: CaseFile) -> CaseFile {
+    case.set("forces.wall_drag", true).set("run.until", "0.25 s")
+}
 
 /// Glass spheres on stainless steel, dry: they bounce.
 fn steel(mut case: CaseFile) -> CaseFile {
@@ -74,11 +81,17 @@ fn main() -> Result<()> {
     if let Some(folder) = std::env::args().skip(2).find(|a| a.contains('/')) {
         case = case.set("flow.case", folder);
     }
+    let near = std::env::args().find_map(|a| match a.as_str() {
+        "center" => Some(center as fn(CaseFile) -> CaseFile),
+        "wall-drag" => Some(wall_drag),
+        _ => None,
+    });
+    if let Some(near) = near {
+        return at_measured(&near(case));
+    }
+    at_measured(&case)?;
     let stokes = logspace(0.06, 1.4, POINTS);
-    let found = in_parallel(CURVES.len(), |curve| {
-        let curve = &CURVES[curve];
-        deposited(&(curve.change)(case.clone()), curve.density, &stokes).map_err(|e| e.to_string())
-    })?;
+    let found = shares(&case, &stokes)?;
     let mut columns = vec![Column::float("stokes", "", stokes.clone())];
     let mut plot = Plot::new(
         "A 90° bend, Re = 1000, bend radius 5.7 R",
@@ -100,17 +113,36 @@ fn main() -> Result<()> {
         plot = plot.with(Series::line(label, x, y).color(look.0).dash(look.1).thin());
     }
     let (x, y) = curve("pui-1987");
-    println!("stokes, measured, as the flow carries them there, 95 %");
-    for ((stokes, measured), share) in x.iter().zip(&y).zip(deposited(&case, 1000.0, &x)?) {
-        let (low, high) = wilson(share, count as f64);
-        println!("{stokes:.2} {measured:.3} {share:.3} {low:.3} {high:.3}");
-    }
     println!("measured: half at {:.3}", half(&x, &y));
     plot.with(Series::points("measured, Pui et al. 1987", x, y).marker(Marker::Circle).color(Color::BLACK))
         .write(study::figure(&out, "bend-90"))?;
     let table = Table::new(columns)?;
     println!("{}", table.to_text());
     Ok(table.write(out.join("bend-90.csv"))?)
+}
+
+/// The share of each curve.
+fn shares(case: &CaseFile, stokes: &[f64]) -> Result<Vec<Vec<f64>>> {
+    let found = in_parallel(CURVES.len(), |curve| {
+        let curve = &CURVES[curve];
+        deposited(&(curve.change)(case.clone()), curve.density, stokes).map_err(|e| e.to_string())
+    })?;
+    Ok(found)
+}
+
+/// Prints what was measured and the share of each curve there.
+fn at_measured(case: &CaseFile) -> Result<()> {
+    let (stokes, measured) = curve("pui-1987");
+    let found = shares(case, &stokes)?;
+    let row = |label: &str, values: &[f64], scale: f64| {
+        let texts: Vec<_> =
+            values.iter().map(|v| format!("{:6.*}", if scale == 1.0 { 2 } else { 1 }, scale * v)).collect();
+        println!("{label:28}{}", texts.join(" "));
+    };
+    row("Stokes number", &stokes, 1.0);
+    row("measured, %", &measured, 100.0);
+    CURVES.iter().zip(&found).for_each(|(curve, shares)| row(curve.label, shares, 100.0));
+    Ok(())
 }
 
 /// The points of a source.
