@@ -16,6 +16,9 @@ use crate::record::Sink;
 pub(super) const MOST_EDGES: u32 = 8;
 /// Share of a step that is no way to get on.
 pub(super) const NO_WAY: f64 = 1e-9;
+/// Share of the time so far that is no time: some fifty units in its last place. Where pieces overlap, a sphere that is led round and
+/// round may get on by rounding alone.
+const NO_TIME: f64 = 1e-14;
 /// Edges met in a row without getting on, as where pieces overlap, after which the piece is looked for anew.
 pub(super) const ROUND: u32 = 2 * MOST_EDGES;
 /// And after which the sphere is lost.
@@ -49,7 +52,7 @@ impl<D: Domain> Walk<'_, D> {
         for l in 0..W {
             goes[l] = among[l] & edges.plain[l] & crew.quiet[l];
             goes[l] &= mask(crew.step.error_squared[l] <= 1.0) & mask(crew.steps[l] <= self.settings.max_steps);
-            goes[l] &= mask(edges.theta[l] >= NO_WAY) & mask(time[l] > crew.time[l]);
+            goes[l] &= mask(edges.theta[l] >= NO_WAY) & mask(gets_on(crew.time[l], time[l]));
         }
         if bits(&goes) == 0 {
             return goes;
@@ -100,7 +103,7 @@ impl<D: Domain> Walk<'_, D> {
         crew.next[l] = crew.after(l, factor);
         // led round and round where pieces overlap
         let lane = &mut crew.lanes[l];
-        lane.round = if theta < NO_WAY || crew.time[l] == before { lane.round + 1 } else { 0 };
+        lane.round = if theta < NO_WAY || !gets_on(before, crew.time[l]) { lane.round + 1 } else { 0 };
         let round = lane.round > ROUND;
         let left = crew.here.get(l);
         crew.here.set(l, if round { self.domain.enter_ahead(into, met.position, met.velocity) } else { into });
@@ -134,4 +137,10 @@ impl<D: Domain> Walk<'_, D> {
             self.renew_in_flight(crew, l, theta * h);
         }
     }
+}
+
+/// Whether the time from one edge to the next is more than rounding.
+#[inline(always)]
+fn gets_on(before: f64, time: f64) -> bool {
+    time - before > NO_TIME * before.abs()
 }
