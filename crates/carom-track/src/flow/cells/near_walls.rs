@@ -60,7 +60,12 @@ impl NearWalls {
             let (mut from, mut near) = ([0.0; 3], [f64::INFINITY; 2]);
             let next = |node: &Node| {
                 let x = cells.flat(node.place);
-                near = at(x, (near[0] + norm(sub(x, from))) * (1.0 + 1e-9) + f64::MIN_POSITIVE);
+                let far = (near[0] + norm(sub(x, from))) * (1.0 + 1e-9) + f64::MIN_POSITIVE;
+                near = at(x, far);
+                if near[0] >= far {
+                    // rounding, far from the origin
+                    near = at(x, f64::INFINITY);
+                }
                 from = x;
                 near
             };
