@@ -4,6 +4,7 @@
 
 use super::ahead::Met;
 use super::crew::Crew;
+use super::meeting::NO_TIME;
 use super::walk::{least_step, lose};
 use super::{Walk, lane, meeting};
 use crate::domain::{Carry, Domain, Edges, Pieces};
@@ -16,9 +17,6 @@ use crate::record::Sink;
 pub(super) const MOST_EDGES: u32 = 8;
 /// Share of a step that is no way to get on.
 pub(super) const NO_WAY: f64 = 1e-9;
-/// Share of the time so far that is no time: some fifty units in its last place. Where pieces overlap, a sphere that is led round and
-/// round may get on by rounding alone.
-const NO_TIME: f64 = 1e-14;
 /// Edges met in a row without getting on, as where pieces overlap, after which the piece is looked for anew.
 pub(super) const ROUND: u32 = 2 * MOST_EDGES;
 /// And after which the sphere is lost.
@@ -139,7 +137,8 @@ impl<D: Domain> Walk<'_, D> {
     }
 }
 
-/// Whether the time from one edge to the next is more than rounding.
+/// Whether the time from one edge to the next is more than rounding, by which alone a sphere that is led round and round may get on where
+/// pieces overlap.
 #[inline(always)]
 fn gets_on(before: f64, time: f64) -> bool {
     time - before > NO_TIME * before.abs()

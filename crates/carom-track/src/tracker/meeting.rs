@@ -22,7 +22,7 @@ const WEDGED: u32 = 64;
 /// Least height of a bounce that counts, over the radius.
 pub(super) const LOWEST: f64 = 1e-9;
 /// Time that is none, over the time since the start: some 50 units in its last place.
-const NO_TIME: f64 = 1e-14;
+pub(super) const NO_TIME: f64 = 1e-14;
 
 /// What an impact leaves.
 pub(super) struct After {

@@ -108,16 +108,7 @@ fn a_wedge_goes_on_round_its_axis() {
         "bottom" => PatchKind::Wall,
         _ => PatchKind::Wall,
     };
-    let place = |x: Vec3| {
-        let (r, turn) = (x[1], (2.0 * x[2] - 1.0) * half);
-        let (s, c) = carom::math::sin_cos(turn);
-        [2.0 * x[0], r * c, r * s]
-    };
-    let mut mesh = sides([6, 8, 1], kinds, place);
-    // the axis is no patch
-    mesh.patches[2].kind = PatchKind::Empty;
-    let empty = mesh.patches[2].faces.clone();
-    drop_faces(&mut mesh, empty);
+    let mesh = wedge([6, 8, 1], kinds, [2.0, 1.0], half);
     let cells = Arc::new(Cells::new(&with_velocity(mesh, |_| [1.0, 0.0, 0.0])).unwrap());
     let outer = cells.patches().iter().find(|p| p.name == "top").unwrap();
     let wall = |name: &str| {
@@ -155,8 +146,25 @@ fn a_wedge_goes_on_round_its_axis() {
     }
 }
 
+/// A wedge round x, of that length and radius (m) and that half of its angle; its axis is no patch.
+pub(super) fn wedge(
+    n: [usize; 3],
+    kinds: impl Fn(&str) -> PatchKind,
+    [length, radius]: [f64; 2],
+    half: f64,
+) -> carom_cfd::Mesh {
+    let place = |x: Vec3| {
+        let (s, c) = carom::math::sin_cos((2.0 * x[2] - 1.0) * half);
+        [length * x[0], radius * x[1] * c, radius * x[1] * s]
+    };
+    let mut mesh = sides(n, kinds, place);
+    let axis = mesh.patches[2].faces.clone();
+    drop_faces(&mut mesh, axis);
+    mesh
+}
+
 /// Takes faces of no area out of a mesh.
-pub(super) fn drop_faces(mesh: &mut carom_cfd::Mesh, faces: std::ops::Range<usize>) {
+fn drop_faces(mesh: &mut carom_cfd::Mesh, faces: std::ops::Range<usize>) {
     let keep: Vec<usize> = (0..mesh.faces.len()).filter(|f| !faces.contains(f)).collect();
     let mut kept = carom_cfd::Polygons { starts: vec![0], corners: Vec::new() };
     for f in &keep {

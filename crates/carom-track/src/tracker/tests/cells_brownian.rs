@@ -2,7 +2,7 @@
 //! standard errors.
 
 use super::cells::domain;
-use super::cells_beyond::{drop_faces, sides};
+use super::cells_beyond::{sides, wedge};
 use super::*;
 use crate::domain::Carry;
 use crate::flow::cells::tests::{Dice, with_cell_velocity, with_velocity};
@@ -138,14 +138,7 @@ fn in_a_wedge_they_are_lost_as_in_the_whole_pipe() {
         "left" | "right" => PatchKind::Symmetry,
         _ => PatchKind::Wall,
     };
-    let place = |x: Vec3| {
-        let (s, c) = carom::math::sin_cos((2.0 * x[2] - 1.0) * half);
-        [SIZE * x[0], SIZE * x[1] * c, SIZE * x[1] * s]
-    };
-    let mut mesh = sides([1, 3, 1], kinds, place);
-    // the axis is no patch
-    let axis = mesh.patches[2].faces.clone();
-    drop_faces(&mut mesh, axis);
+    let mesh = wedge([1, 3, 1], kinds, [SIZE, SIZE], half);
     let pipe = domain(&with_cell_velocity(mesh, |_| [0.0; 3]));
     let count = if cfg!(debug_assertions) { 150 } else { 4_000 };
     let mut dice = Dice::new(4);

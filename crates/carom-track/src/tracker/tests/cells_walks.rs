@@ -1,7 +1,7 @@
 //! Random walks through meshes whose space goes on elsewhere: nothing holds spheres there. Seeds are fixed.
 
 use super::cells::domain;
-use super::cells_beyond::{drop_faces, sides};
+use super::cells_beyond::{sides, wedge};
 use super::*;
 use crate::domain::Carry;
 use crate::flow::cells::tests::{Dice, shaken, with_velocity};
@@ -90,16 +90,7 @@ fn sides_of_a_wedge_hold_no_walking_sphere() {
         "back" | "front" => PatchKind::Wedge,
         _ => PatchKind::Wall,
     };
-    let place = |x: Vec3| {
-        let (r, turn) = (0.1 * x[1], (2.0 * x[2] - 1.0) * half);
-        let (s, c) = carom::math::sin_cos(turn);
-        [0.1 * x[0], r * c, r * s]
-    };
-    let mut mesh = sides([6, 8, 1], kinds, place);
-    // the axis is no patch
-    mesh.patches[2].kind = PatchKind::Empty;
-    let empty = mesh.patches[2].faces.clone();
-    drop_faces(&mut mesh, empty);
+    let mesh = wedge([6, 8, 1], kinds, [0.1, 0.1], half);
     let domain = turbulent(with_velocity(mesh, |_| [0.05, 0.0, 0.0]));
     walk(&domain, [[0.01, 0.01, 0.0], [0.09, 0.09, 1e-4]], "wedge");
 }
