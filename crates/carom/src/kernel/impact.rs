@@ -48,7 +48,7 @@ impl Kernel {
         let share = 1.0 / incident;
         let response = laws.respond(f, v_n, tangent2, &size);
         let validity =
-            laws.judge(f, self, v_n, &size, &response).with(self.scale_warnings(v_n, tangent2, &size, &response));
+            laws.judge(self, v_n, &size, &response).with(self.scale_warnings(v_n, tangent2, &size, &response));
         let normal_share = v_n * v_n * share;
         let energy = normal_energy(&response, normal_share);
         if response.e <= 0.0 {
@@ -77,7 +77,7 @@ impl Kernel {
 /// law might be.
 pub(super) trait Laws {
     fn respond<F: Fma>(&self, f: F, v_n: f64, tangent2: f64, size: &Size) -> NormalResponse;
-    fn judge<F: Fma>(&self, f: F, kernel: &Kernel, v_n: f64, size: &Size, response: &NormalResponse) -> Validity;
+    fn judge(&self, kernel: &Kernel, v_n: f64, size: &Size, response: &NormalResponse) -> Validity;
     fn slide<F: Fma>(&self, f: F, motion: &Motion, response: &NormalResponse) -> Result<Slid, ImpactError>;
 }
 
@@ -94,8 +94,8 @@ impl Laws for AnyLaw<'_> {
     }
 
     #[inline(always)]
-    fn judge<F: Fma>(&self, f: F, kernel: &Kernel, v_n: f64, size: &Size, response: &NormalResponse) -> Validity {
-        kernel.judge(f, v_n, size, response)
+    fn judge(&self, kernel: &Kernel, v_n: f64, size: &Size, response: &NormalResponse) -> Validity {
+        kernel.judge(v_n, size, response)
     }
 
     #[inline(always)]

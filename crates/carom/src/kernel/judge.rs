@@ -132,12 +132,12 @@ impl Limits {
 impl Kernel {
     /// The warnings about one impact.
     #[inline(always)]
-    pub(super) fn judge<F: Fma>(&self, f: F, v: f64, size: &Size, response: &NormalResponse) -> Validity {
+    pub(super) fn judge(&self, v: f64, size: &Size, response: &NormalResponse) -> Validity {
         let validity = self.validity;
         match &self.normal {
             NormalLaw::Table(_) => validity,
             NormalLaw::Ledger(ledger) => {
-                self.judge_ledger(f, ledger.yield_squared(size), ledger.is_damped(), v, size, response)
+                self.judge_ledger(ledger.yield_squared(size), ledger.is_damped(), v, size, response)
             }
             NormalLaw::Resolved(resolved) => {
                 let large = self.limits.contact_is_large(v, size, 1.0, f64::INFINITY);
@@ -150,9 +150,8 @@ impl Kernel {
 impl Kernel {
     /// The warnings about an impact of a list of losses, given its yield velocity and whether damping is among them.
     #[inline(always)]
-    pub(super) fn judge_ledger<F: Fma>(
+    pub(super) fn judge_ledger(
         &self,
-        f: F,
         yield_squared: f64,
         is_damped: bool,
         v: f64,
@@ -164,7 +163,10 @@ impl Kernel {
         let overlap = v * v > yield_squared && is_damped;
         let validity =
             self.validity.with(Validity::LARGE_CONTACT.when(large)).with(Validity::LOSSES_OVERLAP.when(overlap));
-        if response.e <= 0.0 { validity.with(why_captured(f, &self.normal, v, size)) } else { validity }
+        match &self.normal {
+            NormalLaw::Ledger(ledger) if response.e <= 0.0 => validity.with(ledger.why_captured(v, size)),
+            _ => validity,
+        }
     }
 }
 
@@ -191,23 +193,4 @@ fn grazing(normal: &NormalLaw, tangent2: f64, size: &Size) -> Validity {
         NormalLaw::Table(_) => None,
     };
     Validity::GRAZING_CAPTURE.when(hold.is_some_and(|h| tangent2 > GRAZING * h))
-}
-
-/// A ledger left nothing: below the window (capture, no warning), above it, or without one.
-#[cold]
-fn why_captured<F: Fma>(f: F, normal: &NormalLaw, v: f64, size: &Size) -> Validity {
-    let NormalLaw::Ledger(ledger) = normal else { return Validity::NONE };
-    if !ledger.can_exhaust() {
-        return Validity::NONE;
-    }
-    // rebounds at a higher speed, so below the window: the common case, told without searching for the window's ends
-    let faster = |doublings: i32| v * f64::from(1 << doublings);
-    if (1..=12).any(|n| ledger.balance(f, faster(n), size).left > 0.0) {
-        return Validity::NONE;
-    }
-    match ledger.window(size) {
-        None => Validity::NO_REBOUND_WINDOW,
-        Some(window) if v <= window.capture_velocity => Validity::NONE,
-        Some(_) => ledger.exhausted_by(v, size),
-    }
 }

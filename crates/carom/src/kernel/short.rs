@@ -40,9 +40,9 @@ impl<B: Mechanism> Laws for Short<'_, B> {
     }
 
     #[inline(always)]
-    fn judge<F: Fma>(&self, f: F, kernel: &Kernel, v_n: f64, size: &Size, response: &NormalResponse) -> Validity {
+    fn judge(&self, kernel: &Kernel, v_n: f64, size: &Size, response: &NormalResponse) -> Validity {
         let is_damped = self.bulk.is_damping() || self.work.is_damping();
-        kernel.judge_ledger(f, self.bulk.yield_squared(size), is_damped, v_n, size, response)
+        kernel.judge_ledger(self.bulk.yield_squared(size), is_damped, v_n, size, response)
     }
 
     #[inline(always)]
@@ -130,7 +130,7 @@ impl Laws for Given {
     }
 
     #[inline(always)]
-    fn judge<F: Fma>(&self, _: F, kernel: &Kernel, _: f64, _: &Size, _: &NormalResponse) -> Validity {
+    fn judge(&self, kernel: &Kernel, _: f64, _: &Size, _: &NormalResponse) -> Validity {
         kernel.validity
     }
 

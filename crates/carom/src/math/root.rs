@@ -16,13 +16,20 @@ pub fn sign_change(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
     if positive_at_high { low } else { high }
 }
 
-/// Where a function with one maximum on [low, high], both positive, is greatest.
+/// Where a function with one maximum on [low, high], both positive, is greatest: to a relative 1e-8 or so, as flat as a maximum is.
 pub fn peak(low: f64, high: f64, f: impl Fn(f64) -> f64) -> f64 {
     const GOLDEN: f64 = 0.618_033_988_749_894_8;
     let (mut a, mut b) = (ln(low), ln(high));
-    for _ in 0..120 {
-        let (c, d) = (b - GOLDEN * (b - a), a + GOLDEN * (b - a));
-        if f(exp(c)) > f(exp(d)) { b = d } else { a = c }
+    let at = |x: f64| (x, f(exp(x)));
+    let (mut c, mut d) = (at(b - GOLDEN * (b - a)), at(a + GOLDEN * (b - a)));
+    while b - a > 1e-10 {
+        if c.1 > d.1 {
+            (b, d) = (d.0, c);
+            c = at(b - GOLDEN * (b - a));
+        } else {
+            (a, c) = (c.0, d);
+            d = at(a + GOLDEN * (b - a));
+        }
     }
     exp(0.5 * (a + b))
 }

@@ -2,7 +2,6 @@
 
 use super::registry::Term;
 use super::{Ledger, Size};
-use crate::math::BEST;
 use crate::math::root::{peak, sign_change};
 use crate::validity::Validity;
 
@@ -45,25 +44,18 @@ impl Ledger {
     /// ```
     pub fn window(&self, size: &Size) -> Option<Window> {
         let left = |v: f64| self.left(v, size);
-        let captures = self.terms().filter_map(|t| t.capture_velocity(size)).reduce(f64::max);
-        let start = captures.filter(|v| *v > 0.0).unwrap_or(SLOWEST);
+        let captures = self.captures_at(size);
+        let start = self.slowest(size);
         // where nothing else takes anything, the adhesion's own capture velocity is the law's
-        let alone = !self.is_damped() && self.balance(BEST, start, size).bulk == 0.0;
-        let ends = self.terms().filter_map(|t| t.exhaustion(size));
-        let Some(summit) = ends.map(|(speed, _)| speed.min(FASTEST)).reduce(f64::min) else {
+        let alone = !self.is_damped() && self.account(start, size).bulk == 0.0;
+        let Some(summit) = self.ends_at(size) else {
             return match captures {
                 None => (left(FASTEST) > 0.0).then_some(Window::ALL),
                 Some(capture_velocity) if alone => Some(Window { capture_velocity, ..Window::ALL }),
                 Some(_) => rising_root(start, left).map(|capture_velocity| Window { capture_velocity, ..Window::ALL }),
             };
         };
-        if start >= summit {
-            return None;
-        }
-        let best = peak(start, summit, left);
-        if left(best) <= 0.0 {
-            return None;
-        }
+        let best = self.best_speed(start, summit, size)?;
         let capture_velocity = match captures {
             Some(v) if alone => v,
             Some(v) if v > 0.0 || left(start) <= 0.0 => sign_change(start * (1.0 - 1e-9), best, left),
@@ -73,8 +65,45 @@ impl Ledger {
         Some(Window { capture_velocity, exhausted_velocity })
     }
 
+    /// Capture velocity of the adhesion alone, m/s.
+    fn captures_at(&self, size: &Size) -> Option<f64> {
+        self.terms().filter_map(|t| t.capture_velocity(size)).reduce(f64::max)
+    }
+
+    /// The lowest speed at which anything can be left, m/s.
+    fn slowest(&self, size: &Size) -> f64 {
+        self.captures_at(size).filter(|v| *v > 0.0).unwrap_or(SLOWEST)
+    }
+
+    /// The speed from which on ever more is lost until nothing is left, m/s, if there is one.
+    fn ends_at(&self, size: &Size) -> Option<f64> {
+        self.terms().filter_map(|t| t.exhaustion(size)).map(|(speed, _)| speed.min(FASTEST)).reduce(f64::min)
+    }
+
+    /// The speed at which most is left, m/s, if anything is.
+    fn best_speed(&self, start: f64, summit: f64, size: &Size) -> Option<f64> {
+        let left = |v: f64| self.left(v, size);
+        (start < summit).then(|| peak(start, summit, left)).filter(|best| left(*best) > 0.0)
+    }
+
+    /// The warnings about a sphere captured at `v`: below the window (none), above it, or by a ledger without one.
+    #[cold]
+    pub(crate) fn why_captured(&self, v: f64, size: &Size) -> Validity {
+        let Some(summit) = self.ends_at(size) else { return Validity::NONE };
+        // rebounds at a higher speed, so below the window: the common case, told without searching for the window
+        let faster = |doublings: i32| v * f64::from(1 << doublings);
+        if (1..=12).any(|n| self.left(faster(n), size) > 0.0) {
+            return Validity::NONE;
+        }
+        match self.best_speed(self.slowest(size), summit, size) {
+            None => Validity::NO_REBOUND_WINDOW,
+            Some(best) if v < best => Validity::NONE,
+            Some(_) => self.exhausted_by(v, size),
+        }
+    }
+
     /// Why a sphere was captured at a speed above the window, as far as the losses tell.
-    pub(crate) fn exhausted_by(&self, v: f64, size: &Size) -> Validity {
+    fn exhausted_by(&self, v: f64, size: &Size) -> Validity {
         let above_yield = v * v > self.yield_squared(size);
         let named = |term: &Term| term.exhaustion(size).map(|(_, warning)| warning);
         let plastic = self.terms().filter_map(named).find(|w| *w == Validity::PLASTIC_EXHAUSTED);
