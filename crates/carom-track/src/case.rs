@@ -16,6 +16,7 @@ mod scale;
 mod text;
 mod triangles;
 mod wall;
+mod wall_cells;
 mod whole;
 
 pub use files::Sources;
@@ -169,6 +170,7 @@ impl Case {
         notes.extend(fluid::notes(read.fluid.as_ref(), &dynamics, &flow, &injections));
         notes.extend(injections.iter().filter_map(injection::outflow));
         notes.extend(scale::notes(&flow, &walls, &behaviors, &injections));
+        notes.extend(wall_cells::note(&flow, &walls, &behaviors, &dynamics, &injections));
         let domain = AnyDomain::new(flow, walls).with_openings(open);
         let domain = if rubs { domain.with_friction(fluid.kinematic_viscosity()) } else { domain };
         Ok(Self {

@@ -368,6 +368,9 @@ impl Cells {
         let around = Bounds { min: low, max: high };
         let mut most = 0.0f64;
         let speed = |p: usize| norm(self.nodes[p].velocity);
+        if (0..3).all(|c| low[c] <= self.bounds.min[c] && high[c] >= self.bounds.max[c]) {
+            return (0..self.nodes.len()).map(speed).fold(0.0, f64::max);
+        }
         self.locator.iter().for_each(|l| {
             l.meeting(&around, |cell| {
                 for tet in self.cut.of_cell(cell as usize) {

@@ -136,3 +136,21 @@ fn in_a_wedge_what_acts_is_along_its_axis() {
         assert!(error.remedy().unwrap().contains("the whole body"));
     }
 }
+
+#[test]
+fn cells_much_wider_than_the_spheres_at_a_wall_are_told() {
+    let told = |text: &str| {
+        let notes = read(text).unwrap().notes;
+        notes.into_iter().find(|note| note.starts_with("cells at wall"))
+    };
+    // two cells in 0.11 to 0.13 m above the lower wall
+    let note = told(CASE).unwrap();
+    assert!(note.starts_with("cells at wall 'lower' are 58.9 mm high, 5888 radii of a sphere of 20 um: "), "{note}");
+    // by the centre no last radius counts
+    let centre = CASE.replace("law = \"trap\"", "law = \"trap\"\ncontact_at = \"center\"");
+    assert_eq!(told(&centre), None);
+    // cells of less than four radii; spheres so heavy that they fly through the block
+    let large = CASE.replace("20 um", "40 mm").replace("count = 200", "count = 1").replace("2000 kg/m3", "1.2 kg/m3");
+    assert_eq!(told(&large), None);
+    assert_eq!(told(&CASE.replace("2000 kg/m3", "200000000 kg/m3")), None);
+}

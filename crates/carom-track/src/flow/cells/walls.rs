@@ -8,7 +8,7 @@
 use super::Cells;
 use super::seams::Places;
 use crate::geometry::{Bounds, Mesh, Triangle};
-use crate::vector::{Vec3, add, dot, norm, scale, sub};
+use crate::vector::{Vec3, add, cross, dot, norm, scale, sub, unit};
 use carom_cfd::{Carry, Patch, PatchKind};
 
 /// A triangle and its place among the patch's.
@@ -24,6 +24,22 @@ impl Cells {
         let stretched: Vec<Numbered> = all.into_iter().map(|(n, t)| (n, t.map(|x| self.stretched(x)))).collect();
         let (own, copies) = stretched.split_at(own.len());
         Mesh::with_copies(&own.iter().map(|(_, t)| *t).collect::<Vec<_>>(), copies)
+    }
+
+    /// Median height of the cells at a patch, m: twice the distance of their centres from their triangles there. `None` without any.
+    pub(crate) fn height_at(&self, patch: &Patch) -> Option<f64> {
+        let triangles = self.cut.first[patch.faces.start]..self.cut.first[patch.faces.end];
+        // on the boundary a cell owns its faces
+        let mut heights: Vec<f64> = triangles.filter_map(|t| self.height(2 * t)).collect();
+        let middle = heights.len() / 2;
+        (middle < heights.len()).then(|| *heights.select_nth_unstable_by(middle, f64::total_cmp).1)
+    }
+
+    fn height(&self, tet: u32) -> Option<f64> {
+        let (corners, centre) = self.corners(tet, self.cut.cell(tet));
+        let [a, b, c] = corners.map(|p| self.nodes[p].place);
+        let normal = unit(cross(sub(b, a), sub(c, a)))?;
+        Some(2.0 * dot(sub(a, self.nodes[centre].place), normal).abs())
     }
 
     /// A point of a plane case far out on its side; of others as it is.
