@@ -27,7 +27,7 @@ It ends with the tables of a case file that read this flow, to paste.";
 #[derive(clap::Args)]
 #[command(after_long_help = EXAMPLE)]
 pub struct Args {
-    /// A folder with a case of OpenFOAM, a mesh of VTK (.vtu, .pvtu, .vtm, .vtk) or Fluent (.cas.h5), or a flow table (.csv, .vti, .vtr, .vtk)
+    /// A folder with a case of OpenFOAM, a mesh of VTK (.vtu, .pvtu, .vtm, .vtpd, .vtpc, .vtk) or Fluent (.cas.h5), or a flow table (.csv, .vti, .vtr, .vtk)
     case: PathBuf,
     /// Time of a case of OpenFOAM; the latest without it
     #[arg(long, value_name = "NAME")]
@@ -49,7 +49,9 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     } else if args.time.is_some() {
         return Err(Failure::input("--time is of a case of OpenFOAM, which is a folder"));
     } else if is_mesh_of_vtk(case) {
-        let snapshot = vtk::read(case, &vtk::Options::default()).map_err(failure)?;
+        let mut snapshot = vtk::read(case, &vtk::Options::default()).map_err(failure)?;
+        let gaps = carom_track::flow::Cells::new(&snapshot).ok().and_then(|cells| cells.gaps());
+        snapshot.notes.extend(gaps);
         Info::new("VTK", case, Vec::new(), &snapshot)
     } else if case.to_string_lossy().to_ascii_lowercase().ends_with(".cas.h5") {
         Info::new("Fluent", case, Vec::new(), &fluent(case)?)
@@ -77,18 +79,29 @@ fn fluent(case: &Path) -> Result<Snapshot, Failure> {
     Err(Failure::input(format!("{}: this carom was built without the feature `fluent`", case.display())))
 }
 
-/// Whether a file of VTK holds cells, and no grid along axes, which is a flow table.
+/// What of VTK's is a mesh, or holds some. Grids along axes are flow tables.
+const MESHES: [&str; 6] = [
+    "unstructuredgrid",
+    "punstructuredgrid",
+    "vtkmultiblockdataset",
+    "vtkpartitioneddataset",
+    "vtkpartitioneddatasetcollection",
+    // of times: refused by a reader that says why
+    "collection",
+];
+
+/// Whether a file is a mesh of VTK, by its first bytes, as the reader goes by them.
 fn is_mesh_of_vtk(file: &Path) -> bool {
-    let ending = file.extension().map_or(String::new(), |e| e.to_string_lossy().to_ascii_lowercase());
-    match ending.as_str() {
-        "vtu" | "pvtu" | "vtm" | "vtpc" => true,
-        "vtk" => {
-            let mut start = Vec::new();
-            let read = std::fs::File::open(file).and_then(|f| f.take(4096).read_to_end(&mut start));
-            read.is_ok() && start.to_ascii_uppercase().windows(17).any(|w| w == b"UNSTRUCTURED_GRID")
-        }
-        _ => false,
+    let mut start = Vec::new();
+    let read = std::fs::File::open(file).and_then(|f| f.take(8192).read_to_end(&mut start));
+    let start = String::from_utf8_lossy(&start).to_ascii_lowercase();
+    if start.starts_with("# vtk datafile") {
+        let words: Vec<&str> = start.lines().skip(2).flat_map(str::split_whitespace).collect();
+        return words.windows(2).any(|w| w == ["dataset", "unstructured_grid"]);
     }
+    let tag = start.split_once("<vtkfile").and_then(|(_, rest)| rest.split('>').next());
+    let kind = tag.and_then(|tag| tag.split_once("type")).and_then(|(_, rest)| rest.split(['"', '\'']).nth(1));
+    read.is_ok() && kind.is_some_and(|kind| MESHES.contains(&kind.trim()))
 }
 
 /// A result that cannot be read is the user's mistake, but for a disk that fails.

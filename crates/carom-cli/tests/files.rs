@@ -288,3 +288,26 @@ fn two_ranges_make_a_map_of_capture_rebound_and_yield() {
     let named = |class: &str| svg.lines().any(|line| line.trim() == class);
     assert!(["capture", "rebound", "rebound with yield"].into_iter().all(named), "{svg}");
 }
+
+#[test]
+fn info_goes_by_what_a_file_holds() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mesh = "# vtk DataFile Version 3.0\nan unstructured_grid by title\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n\
+        0 0 0 1 0 0 0 1 0 0 0 1\nCELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\nPOINT_DATA 4\nVECTORS U double\n1 0 0 1 0 0 1 0 0 1 0 0\n";
+    let grid =
+        "# vtk DataFile Version 3.0\nno dataset unstructured_grid\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 2 2 2\n\
+        ORIGIN 0 0 0\nSPACING 1 1 1\nPOINT_DATA 8\nVECTORS U double\n"
+            .to_owned() + &"1 0 0\n".repeat(8);
+    let pieces = "<?xml version=\"1.0\"?><!-- of \"one\" --><VTKFile version=\"1.0\" type='vtkPartitionedDataSet'>\
+        <vtkPartitionedDataSet><DataSet index=\"0\" file=\"none.vtu\"/></vtkPartitionedDataSet></VTKFile>";
+    let times = "<VTKFile type=\"Collection\"><Collection/></VTKFile>";
+    let told = |name: &str, text: &str| {
+        std::fs::write(folder.path().join(name), text).expect("a file");
+        let out = carom(folder.path(), &format!("info {name}"));
+        String::from_utf8_lossy(&out.stdout).into_owned() + &String::from_utf8_lossy(&out.stderr)
+    };
+    assert!(told("mesh.data", mesh).contains("1 tetrahedra"));
+    assert!(told("grid.vtk", &grid).contains("flow table"));
+    assert!(told("pieces.vtpd", pieces).contains("none.vtu"));
+    assert!(told("times.pvd", times).contains("name the file of one time"));
+}

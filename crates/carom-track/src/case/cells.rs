@@ -68,6 +68,9 @@ pub(super) fn read(
     files.take_in(&snapshot);
     let cells = Cells::new(&snapshot).map_err(|e| wrong(at, format!("{}: {e}", at.value)))?;
     notes.push(described(&at.value, &cells));
+    if text.value.kind.value == "vtk" {
+        notes.extend(cells.gaps().map(|note| format!("{}: {note}", at.value)));
+    }
     Ok(Arc::new(cells))
 }
 

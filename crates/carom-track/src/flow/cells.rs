@@ -16,6 +16,7 @@ mod strips;
 mod tetrahedra;
 mod tetrahedron;
 mod walls;
+mod within;
 
 pub(crate) use beyond::carry_spin;
 pub(crate) use near_walls::NearWalls;

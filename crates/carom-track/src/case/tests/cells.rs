@@ -154,3 +154,52 @@ fn cells_much_wider_than_the_spheres_at_a_wall_are_told() {
     assert_eq!(told(&large), None);
     assert_eq!(told(&CASE.replace("2000 kg/m3", "200000000 kg/m3")), None);
 }
+
+/// Boxes as a legacy file of VTK, each with points of its own unless `joined`; the flow is even.
+fn boxes(boxes: &[[[f64; 3]; 2]], joined: bool) -> String {
+    let (mut points, mut cells): (Vec<[f64; 3]>, String) = (Vec::new(), String::new());
+    for [low, high] in boxes {
+        cells += "8";
+        for (i, j, k) in [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)] {
+            let x = [[low, high][i][0], [low, high][j][1], [low, high][k][2]];
+            let known = points.iter().position(|p| *p == x).filter(|_| joined);
+            cells += &format!(" {}", known.unwrap_or(points.len()));
+            points.extend(known.is_none().then_some(x));
+        }
+        cells += "\n";
+    }
+    let list = |x: &[[f64; 3]]| x.iter().map(|[x, y, z]| format!("{x} {y} {z}\n")).collect::<String>();
+    let (n, m) = (points.len(), boxes.len());
+    let types = "12\n".repeat(m);
+    format!(
+        "# vtk DataFile Version 3.0\nboxes\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS {n} double\n{}CELLS {m} {}\n{cells}CELL_TYPES {m}\n{types}POINT_DATA {n}\nVECTORS U double\n{}",
+        list(&points),
+        9 * m,
+        list(&vec![[1.0, 0.0, 0.0]; n]),
+    )
+}
+
+#[test]
+fn cells_that_do_not_hang_together_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let told = |mesh: &str| {
+        std::fs::write(folder.path().join("mesh.vtk"), mesh).unwrap();
+        let case = "[flow]\nkind = \"vtk\"\nfile = \"mesh.vtk\"\n[[wall]]\npatch = \"boundary\"\nlaw = \"trap\"\n\
+            [[injection]]\ndensity = 1000\ndiameter = 1e-5\nposition = [0.5, 0.3, 0.5]\nvelocity = \"fluid\"\n[run]\nuntil = 1\n";
+        let case = Case::from_toml(case, &folder.path().join("case.toml"), Library::builtin()).unwrap();
+        case.notes.into_iter().find(|note| note.contains("right behind"))
+    };
+    let beside = |gap: f64| [[[0.0; 3], [1.0; 3]], [[1.0 + gap, 0.0, 0.0], [2.0, 1.0, 1.0]]];
+    assert_eq!(told(&boxes(&beside(0.0), true)), None);
+    // each with points of its own, and with a gap of rounding
+    for gap in [0.0, 1e-7] {
+        let note = told(&boxes(&beside(gap), false)).unwrap();
+        assert!(note.starts_with("mesh.vtk: 2 faces of the boundary have other cells right behind them"), "{note}");
+    }
+    // hanging nodes: one face before two
+    let hanging = [[[0.0; 3], [1.0; 3]], [[1.0, 0.0, 0.0], [2.0, 0.5, 1.0]], [[1.0, 0.5, 0.0], [2.0, 1.0, 1.0]]];
+    assert!(told(&boxes(&hanging, true)).unwrap().starts_with("mesh.vtk: 3 faces"));
+    // one in the other
+    let within = [[[0.0; 3], [1.0; 3]], [[0.4; 3], [0.6; 3]]];
+    assert!(told(&boxes(&within, false)).unwrap().starts_with("mesh.vtk: 6 faces"));
+}

@@ -7,8 +7,9 @@
 
 use super::cut::Cut;
 use super::seams::Seams;
-use crate::vector::{Vec3, norm, sub};
+use crate::vector::{Vec3, add, cross, dot, norm, scale, sub};
 use carom_cfd::{Carry, Field, Mesh, PatchKind};
+use rayon::prelude::*;
 
 /// What to interpolate on.
 pub(super) struct Nodes<'a> {
@@ -45,24 +46,43 @@ impl Nodes<'_> {
         }
     }
 
-    /// Cells' values from their points': the mean of the corners of the faces, each face counting once.
+    /// Values at cells' centres from their points': those of the linear field that fits the points best. Of a field that is linear over the
+    /// cell it is that field's own, which the mean of the points is not where their middle is not the centre.
     fn means<const N: usize>(&self, points: &[[f64; N]]) -> Vec<[f64; N]> {
-        let mesh = self.mesh;
-        let mut sums = vec![([0.0; N], 0.0f64); mesh.cells];
-        for face in 0..mesh.faces.len() {
-            let corners = mesh.faces.get(face);
-            let of = [mesh.owner.get(face), mesh.neighbour.get(face)];
-            for cell in of.into_iter().flatten() {
-                let (total, count) = &mut sums[*cell as usize];
-                for corner in corners {
-                    for (t, v) in total.iter_mut().zip(points[*corner as usize]) {
-                        *t += v;
-                    }
-                }
-                *count += corners.len() as f64;
+        let cell = |cell: usize| {
+            let mut corners: Vec<u32> = Vec::new();
+            for face in self.cut.faces(cell) {
+                corners.extend(self.mesh.faces.get(*face as usize));
+            }
+            corners.sort_unstable();
+            corners.dedup();
+            self.fitted(&corners, self.cell_centres[cell], points)
+        };
+        (0..self.mesh.cells).into_par_iter().map(cell).collect()
+    }
+
+    /// Value at a place of the linear field that fits those of some points best, within the range of these.
+    fn fitted<const N: usize>(&self, corners: &[u32], centre: Vec3, points: &[[f64; N]]) -> [f64; N] {
+        let share = 1.0 / corners.len().max(1) as f64;
+        let place = |corner: u32| self.mesh.points[corner as usize];
+        let middle = scale(corners.iter().fold([0.0; 3], |sum, c| add(sum, place(*c))), share);
+        let mut spread = [[0.0; 3]; 3];
+        for x in corners.iter().map(|c| sub(place(*c), middle)) {
+            for (row, a) in spread.iter_mut().zip(x) {
+                *row = add(*row, scale(x, a));
             }
         }
-        sums.into_iter().map(|(sum, n)| sum.map(|s| s / n.max(1.0))).collect()
+        // a weight for each corner: their sum is 1, and the middle weighted by them the centre
+        let lean = solved(&spread, sub(centre, middle)).unwrap_or([0.0; 3]);
+        let (mut sum, mut low, mut high) = ([0.0; N], [f64::INFINITY; N], [f64::NEG_INFINITY; N]);
+        for corner in corners {
+            let weight = share + dot(lean, sub(place(*corner), middle));
+            for (i, v) in points[*corner as usize].into_iter().enumerate() {
+                sum[i] += weight * v;
+                (low[i], high[i]) = (low[i].min(v), high[i].max(v));
+            }
+        }
+        std::array::from_fn(|i| if corners.is_empty() { 0.0 } else { sum[i].clamp(low[i], high[i]) })
     }
 
     fn points<const N: usize>(
@@ -115,6 +135,19 @@ impl Nodes<'_> {
     }
 }
 
+/// y with A y = b for a symmetric A that is no less than zero; `None` where A is flat.
+fn solved(a: &[Vec3; 3], b: Vec3) -> Option<Vec3> {
+    const FLAT: f64 = 1e-12;
+    let minors = [cross(a[1], a[2]), cross(a[2], a[0]), cross(a[0], a[1])];
+    let determinant = dot(a[0], minors[0]);
+    let size = a[0][0] * a[1][1] * a[2][2];
+    if determinant.is_nan() || determinant <= FLAT * size {
+        return None;
+    }
+    let sum = (0..3).fold([0.0; 3], |sum, c| add(sum, scale(minors[c], b[c])));
+    Some(scale(sum, 1.0 / determinant))
+}
+
 /// Which points lie on a patch whose values hold at its points.
 pub(super) fn on_boundary(mesh: &Mesh) -> Vec<bool> {
     let mut on = vec![false; mesh.points.len()];
@@ -124,4 +157,26 @@ pub(super) fn on_boundary(mesh: &Mesh) -> Vec<bool> {
         }
     }
     on
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Cells;
+    use super::super::tests::{Dice, shaken, with_velocity};
+    use crate::vector::{norm, sub};
+    use carom_cfd::block::Kind;
+
+    #[test]
+    fn a_linear_field_given_at_points_is_exact_in_cells_of_any_shape() {
+        let linear = |x: [f64; 3]| [3.0 * x[1] - x[2], 0.5 + 2.0 * x[0], x[0] + x[1] + 4.0 * x[2]];
+        for kind in Kind::ALL {
+            let cells = Cells::new(&with_velocity(shaken(kind, [4, 3, 5], 0.3, 17), linear)).unwrap();
+            let mut dice = Dice::new(3);
+            for _ in 0..500 {
+                let x = dice.point();
+                let off = norm(sub(cells.velocity(x), linear(x)));
+                assert!(off < 1e-12, "{kind:?} {x:?}: {off:e}");
+            }
+        }
+    }
 }

@@ -35,7 +35,8 @@ impl Cells {
         (middle < heights.len()).then(|| *heights.select_nth_unstable_by(middle, f64::total_cmp).1)
     }
 
-    fn height(&self, tet: u32) -> Option<f64> {
+    /// Height of the cell before a triangle of the boundary, m.
+    pub(super) fn height(&self, tet: u32) -> Option<f64> {
         let (corners, centre) = self.corners(tet, self.cut.cell(tet));
         let [a, b, c] = corners.map(|p| self.nodes[p].place);
         let normal = unit(cross(sub(b, a), sub(c, a)))?;
