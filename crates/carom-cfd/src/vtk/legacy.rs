@@ -43,13 +43,15 @@ impl<'a> Reader<'a> {
     /// Begins with the first three lines.
     pub fn new(file: &'a [u8]) -> Result<Self, Problem> {
         let mut reader = Self { file, at: 0, binary: false, major: 0 };
-        let Some(version) = reader.line().and_then(|l| l.strip_prefix("# vtk DataFile")) else {
+        let version = reader.line().ok().flatten().and_then(|l| l.strip_prefix("# vtk DataFile"));
+        let Some(version) = version else {
             return Err(reader.error("not a legacy VTK file: it must begin with \"# vtk DataFile\""));
         };
         let number = version.trim().trim_start_matches("Version").trim().split('.').next();
         reader.major = number.and_then(|n| n.parse().ok()).unwrap_or_default();
-        reader.line();
-        reader.binary = match reader.line() {
+        // the title, in any encoding
+        reader.raw_line();
+        reader.binary = match reader.line()? {
             Some(l) if l.eq_ignore_ascii_case("ascii") => false,
             Some(l) if l.eq_ignore_ascii_case("binary") => true,
             _ => return Err(reader.error("the third line must be ASCII or BINARY")),
@@ -72,22 +74,36 @@ impl<'a> Reader<'a> {
         Problem { byte: self.at, what: what.into() }
     }
 
-    /// The rest of the line, trimmed; `None` at the end of the file.
-    pub fn line(&mut self) -> Option<&'a str> {
+    /// The rest of the line; `None` at the end of the file.
+    fn raw_line(&mut self) -> Option<&'a [u8]> {
         let rest = self.file.get(self.at..).filter(|r| !r.is_empty())?;
         let end = memchr::memchr(b'\n', rest).unwrap_or(rest.len());
         self.at += (end + 1).min(rest.len());
-        Some(std::str::from_utf8(&rest[..end]).unwrap_or("").trim())
+        Some(&rest[..end])
     }
 
-    /// The words of the next line that is not empty.
-    pub fn words(&mut self) -> Option<Vec<&'a str>> {
-        loop {
-            let line = self.line()?;
-            if !line.is_empty() {
-                return Some(line.split_whitespace().collect());
+    /// The rest of the line, trimmed; `None` at the end of the file. What is no text is an error: it is met where an array
+    /// was longer than its type says, and passing over it would lose the arrays after it.
+    fn line(&mut self) -> Result<Option<&'a str>, Problem> {
+        let begin = self.at;
+        let Some(line) = self.raw_line() else { return Ok(None) };
+        match std::str::from_utf8(line) {
+            Ok(text) => Ok(Some(text.trim())),
+            Err(e) => {
+                let what = "a byte that is no UTF-8 text, where a keyword or a number should be".to_owned();
+                Err(Problem { byte: begin + e.valid_up_to(), what })
             }
         }
+    }
+
+    /// The words of the next line that is not empty; none at the end of the file.
+    pub fn words(&mut self) -> Result<Vec<&'a str>, Problem> {
+        while let Some(line) = self.line()? {
+            if !line.is_empty() {
+                return Ok(line.split_whitespace().collect());
+            }
+        }
+        Ok(Vec::new())
     }
 
     /// The words of the next line that is not empty, which is not passed over.
@@ -100,7 +116,7 @@ impl<'a> Reader<'a> {
 
     /// The next line's words after `keyword`.
     pub fn expect(&mut self, keyword: &str, count: usize) -> Result<Vec<&'a str>, Problem> {
-        let words = self.words().unwrap_or_default();
+        let words = self.words()?;
         match words.split_first() {
             Some((first, rest)) if first.eq_ignore_ascii_case(keyword) && rest.len() >= count => Ok(rest.to_vec()),
             _ => Err(self.error(format!("{} where {keyword} should be", quoted(&words.join(" "))))),
@@ -116,9 +132,10 @@ impl<'a> Reader<'a> {
     pub fn data(&mut self, nodes: usize, cells: usize) -> Result<[Vec<Array<'a>>; 2], Problem> {
         self.skip_metadata();
         let (mut found, mut which) = ([Vec::new(), Vec::new()], None);
-        while let Some(words) = self.words() {
-            let keyword = words[0].to_ascii_uppercase();
-            let rest = words.get(1..).unwrap_or_default();
+        loop {
+            let words = self.words()?;
+            let Some((first, rest)) = words.split_first() else { break };
+            let keyword = first.to_ascii_uppercase();
             match (keyword.as_str(), rest) {
                 ("POINT_DATA" | "CELL_DATA", [count, ..]) => {
                     let of_cells = keyword == "CELL_DATA";
@@ -131,7 +148,7 @@ impl<'a> Reader<'a> {
                     continue;
                 }
                 ("METADATA", _) => {
-                    while self.line().is_some_and(|l| !l.is_empty()) {}
+                    self.pass_block();
                     continue;
                 }
                 _ => {}
@@ -181,7 +198,7 @@ impl<'a> Reader<'a> {
         let mut arrays = Vec::new();
         for _ in 0..self.parse::<usize>(count)? {
             self.skip_metadata();
-            let words = self.words().unwrap_or_default();
+            let words = self.words()?;
             let [name, components, tuples, kind] = words[..] else {
                 return Err(self.error("a field array needs a name, components, tuples and a type"));
             };
@@ -218,14 +235,17 @@ impl<'a> Reader<'a> {
     pub fn skip_metadata(&mut self) {
         loop {
             let here = self.at;
-            match self.words() {
-                Some(words) if words[0] == "METADATA" => while self.line().is_some_and(|l| !l.is_empty()) {},
-                _ => {
-                    self.at = here;
-                    return;
-                }
+            if self.words().unwrap_or_default().first() != Some(&"METADATA") {
+                self.at = here;
+                return;
             }
+            self.pass_block();
         }
+    }
+
+    /// Passes over lines up to an empty one.
+    fn pass_block(&mut self) {
+        while self.raw_line().is_some_and(|l| !l.trim_ascii().is_empty()) {}
     }
 
     /// So many numbers of a VTK type; binary ones are big-endian.
@@ -261,7 +281,7 @@ impl<'a> Reader<'a> {
     fn ascii(&mut self, count: usize, mut take: impl FnMut(&Self, &str) -> Result<(), Problem>) -> Result<(), Problem> {
         let mut met = 0;
         while met < count {
-            let Some(line) = self.line() else {
+            let Some(line) = self.line()? else {
                 return Err(self.error(format!("the file ends after {met} of {count} values")));
             };
             for word in line.split_ascii_whitespace() {
