@@ -168,6 +168,35 @@ fn values_and_places_that_are_none_are_named() {
 }
 
 #[test]
+fn base64_may_be_broken_into_lines() {
+    for name in ["inline.vtu", "inline-zlib.vtu"] {
+        let text = std::fs::read_to_string(path(name)).unwrap();
+        let wrap = |line: &str| if line.contains('<') { format!("{line}\n") } else { broken_up(line) };
+        let wrapped: String = text.lines().map(wrap).collect();
+        assert!(wrapped.len() > text.len() + 100, "{name}");
+        let (found, wanted) = (given(&wrapped).unwrap(), get(name));
+        assert_eq!((found.mesh.points, found.fields.velocity), (wanted.mesh.points, wanted.fields.velocity), "{name}");
+    }
+}
+
+/// A line in lines of 30 characters.
+fn broken_up(line: &str) -> String {
+    line.as_bytes().chunks(30).map(|part| format!("  {}\r\n", String::from_utf8_lossy(part))).collect()
+}
+
+#[test]
+fn a_compressor_that_is_not_read_does_not_matter_to_ascii() {
+    let named = |name: &str| {
+        let text = std::fs::read_to_string(path(name)).unwrap();
+        let text = text.replace(" compressor=\"vtkZLibDataCompressor\"", "");
+        given(&text.replacen("<VTKFile ", "<VTKFile compressor=\"vtkLZMADataCompressor\" ", 1))
+    };
+    assert_eq!(named("ascii.vtu").unwrap().fields, get("ascii.vtu").fields);
+    let refused = named("inline-zlib.vtu").unwrap_err();
+    assert!(refused.contains("compressed by vtkLZMADataCompressor, which is not read"), "{refused}");
+}
+
+#[test]
 fn thin_walls_keep_their_sides() {
     // two bricks with points of their own where they touch, and a polygon for each side
     let mut points = brick([0.0; 3], UNIT).to_vec();
