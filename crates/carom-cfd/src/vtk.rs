@@ -20,7 +20,7 @@
 //! **Fields**: of points, or else of cells. Velocity by the names `U`, `velocity`, `Velocity`, or as [`Options::names`] says; then `k`, `epsilon`, `omega`, `rho` or
 //! `density`, `T` or `temperature`, `p` or `pressure` and what programs call them. On the boundary a field of cells has the values of the blocks, or else the cells'.
 //!
-//! **Refused**, with the place: faces of three cells, cells that overlap or are open, points that are no places, NaN and infinity in a field that is used, cells and
+//! **Refused**, with the place: faces of three cells, cells on the same side of a common face, open cells, points that are no places, NaN and infinity in a field that is used where solid cells have it, cells and
 //! points that are hidden or not valid. Copies of other pieces' cells (`vtkGhostType`) are left out. Not read: LZMA, strips of triangles, convex
 //! point sets, structured and hyper-tree grids, files of polygons alone (plane results).
 

@@ -98,9 +98,14 @@ impl Sources<'_> {
     }
 
     /// A value that a polygon of a surface has. Those among the solid cells have what their file gives all cells.
-    fn of_surface<const N: usize>(&self, (surface, cell): (u32, u32), q: usize) -> Option<[f64; N]> {
+    fn of_surface<const N: usize>(&self, on: (u32, u32), q: usize) -> Option<[f64; N]> {
+        self.given(on, q)?.first_chunk().copied()
+    }
+
+    /// The same, of any width. NaN stands where a file's cells have no value.
+    fn given(&self, (surface, cell): (u32, u32), q: usize) -> Option<&[f64]> {
         let values = self.surfaces[surface as usize].grid.data.cells[q].as_ref()?;
-        let value = *values.get(cell as usize * N..)?.first_chunk::<N>()?;
+        let value = values.chunks(QUANTITIES[q].1).nth(cell as usize)?;
         value.iter().all(|x| x.is_finite()).then_some(value)
     }
 
@@ -122,9 +127,7 @@ impl Sources<'_> {
         let inner = self.mesh.inner_faces();
         for patch in &self.mesh.patches {
             let mut on = self.boundary.on[patch.faces.start - inner..patch.faces.end - inner].iter();
-            let has = |on: &Option<(u32, u32)>| {
-                on.is_some_and(|(s, _)| self.surfaces[s as usize].grid.data.cells[q].is_some())
-            };
+            let has = |on: &Option<(u32, u32)>| on.is_some_and(|on| self.given(on, q).is_some());
             if !on.all(has) {
                 bare.push(&patch.name);
             }

@@ -102,18 +102,19 @@ pub(super) fn gather(grid: &mut Grid, arrays: &mut dyn Arrays, path: &Path, opti
             *place = Some((true, other));
         }
     }
-    for (q, place) in places.into_iter().enumerate() {
+    for (q, place) in places.iter().copied().enumerate() {
         let Some((of_cells, i)) = place else { continue };
         used[usize::from(of_cells)][i] = true;
         let values = arrays.read(of_cells, i).map_err(fail)?;
-        if let Some(n) = values.iter().position(|x| !x.is_finite()).filter(|_| solid) {
-            let (what, tuple) = (if of_cells { "cell" } else { "point" }, n / QUANTITIES[q].1);
-            let name = quoted(&listed[usize::from(of_cells)][i].name);
-            return Err(fail(format!("{name} is {} in {what} {tuple}: NaN or infinity is no value", values[n])));
-        }
         (if of_cells { &mut grid.data.cells } else { &mut grid.data.points })[q] = Some(values);
     }
     masks(grid, arrays, &listed, &mut used).map_err(fail)?;
+    // what only ghosts have, or no cell, is of no matter
+    grid.check_places().map_err(fail)?;
+    for (q, place) in places.into_iter().enumerate() {
+        let Some((of_cells, i)) = place else { continue };
+        finite(grid, q, of_cells, &listed[usize::from(of_cells)][i].name).map_err(fail)?;
+    }
     if let Some(name) = &options.patches {
         let number = listed[1].iter().position(|a| a.name == *name && a.components == 1);
         grid.data.labels = match (number, arrays.texts(name)) {
@@ -170,6 +171,24 @@ fn find(
     let taken = |name: &str| names.contains(&Some(name));
     let found = aliases.iter().find_map(|alias| place(&|n| plain(n) == *alias && !taken(n)));
     if found.is_none() && solid && quantity == 0 { Err(missing("U")) } else { Ok(found) }
+}
+
+/// Refuses values that are none in solid cells or at their points.
+fn finite(grid: &Grid, quantity: usize, of_cells: bool, name: &str) -> Result<(), String> {
+    let data = if of_cells { &grid.data.cells } else { &grid.data.points };
+    let values = data[quantity].as_deref().unwrap_or_default();
+    if values.iter().all(|x| x.is_finite()) {
+        return Ok(());
+    }
+    let used = if of_cells { grid.kinds.iter().map(|k| is_solid(*k)).collect() } else { grid.used(is_solid) };
+    let tuples = values.chunks(QUANTITIES[quantity].1).zip(used).enumerate().filter(|(_, (_, used))| *used);
+    for (n, (tuple, _)) in tuples {
+        if let Some(x) = tuple.iter().find(|x| !x.is_finite()) {
+            let what = if of_cells { "cell" } else { "point" };
+            return Err(format!("{} is {x} in {what} {n}: NaN or infinity is no value", quoted(name)));
+        }
+    }
+    Ok(())
 }
 
 /// A name in lower case, with underscores for what stands between words.

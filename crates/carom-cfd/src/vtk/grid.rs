@@ -94,10 +94,35 @@ impl Grid {
                 return Err(format!("cell {cell} is a {name} (VTK's kind {kind}) of {found} points"));
             }
         }
-        match self.points.iter().position(|x| x.iter().any(|c| !c.is_finite())) {
+        Ok(())
+    }
+
+    /// Refuses points of cells that are no places. Those of cells that are left out, and of none, may be anything.
+    pub fn check_places(&self) -> Result<(), String> {
+        let is_place = |x: &[f64; 3]| x.iter().all(|c| c.is_finite());
+        if self.points.iter().all(is_place) {
+            return Ok(());
+        }
+        let used = self.used(|kind| shape(kind) != Shape::Thin);
+        match self.points.iter().zip(used).position(|(x, used)| used && !is_place(x)) {
             Some(p) => Err(format!("point {p} is no place: {:?}", self.points[p])),
             None => Ok(()),
         }
+    }
+
+    /// Of each point whether cells of such kinds are made of it.
+    pub fn used(&self, wanted: impl Fn(u8) -> bool) -> Vec<bool> {
+        let mut used = vec![false; self.points.len()];
+        let mut mark = |corners: &[u32]| corners.iter().for_each(|p| used[*p as usize] = true);
+        for (cell, kind) in self.kinds.iter().enumerate().filter(|(_, kind)| wanted(**kind)) {
+            let all = self.cells.get(cell);
+            match shape(*kind) {
+                Shape::Solid(solid) => mark(all.get(..solid.corners).unwrap_or(all)),
+                Shape::Polyhedron => self.shells.of(cell).for_each(|face| mark(self.shells.faces.get(face))),
+                _ => mark(all),
+            }
+        }
+        used
     }
 
     /// The corners of a cell that is a polygon, in order round it.

@@ -107,10 +107,16 @@ fn append(whole: &mut Grid, part: Grid, to: &[u32], before: usize) -> Result<f64
             return Err(format!("its pieces do not all have the {name}, or not all at points"));
         }
         if let (Some(all), Some(more)) = (&mut whole.data.points[q], &part.data.points[q]) {
-            let most = all.iter().fold(f64::MIN_POSITIVE, |m, x| m.max(x.abs()));
+            let most = all.iter().filter(|x| x.is_finite()).fold(f64::MIN_POSITIVE, |m, x| m.max(x.abs()));
             for (i, id) in to.iter().enumerate().filter(|(_, id)| (**id as usize) < before) {
-                let [a, b] = [&all[*id as usize * width..][..*width], &more[i * width..][..*width]];
-                apart = a.iter().zip(b).fold(apart, |m, (a, b)| m.max((a - b).abs() / most));
+                let (a, b) = (&mut all[*id as usize * width..][..*width], &more[i * width..][..*width]);
+                let [mine, theirs] = [&*a, b].map(|v| v.iter().all(|x| x.is_finite()));
+                if !mine {
+                    // no cell of the pieces before has this point
+                    a.copy_from_slice(b);
+                } else if theirs {
+                    apart = a.iter().zip(b).fold(apart, |m, (a, b)| m.max((a - b).abs() / most));
+                }
             }
             all.extend(only(more, *width, &keep));
         }

@@ -4,9 +4,17 @@
 //! Read here rather than by a library: the one there is for Rust (vtkio 0.6) rests on releases of its parsers that the
 //! compiler announces it will reject.
 
+mod text;
+
+pub(super) use text::decoded;
+
 use super::number::{Number, Stored};
 use carom_table::{clipped, quoted};
 use std::str::FromStr;
+use text::is_text;
+
+/// Colours: bytes, which ASCII has as fractions of 255. VTK writes any scalars so that are unsigned char.
+const COLOR: &str = "COLOR_SCALARS";
 
 /// What is wrong with a file, and where.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -37,19 +45,22 @@ pub struct Reader<'a> {
     at: usize,
     binary: bool,
     major: u32,
+    texts: Vec<Array<'a>>,
 }
 
 impl<'a> Reader<'a> {
     /// Begins with the first three lines.
     pub fn new(file: &'a [u8]) -> Result<Self, Problem> {
-        let mut reader = Self { file, at: 0, binary: false, major: 0 };
-        let Some(version) = reader.line().and_then(|l| l.strip_prefix("# vtk DataFile")) else {
+        let mut reader = Self { file, at: 0, binary: false, major: 0, texts: Vec::new() };
+        let version = reader.line().ok().flatten().and_then(|l| l.strip_prefix("# vtk DataFile"));
+        let Some(version) = version else {
             return Err(reader.error("not a legacy VTK file: it must begin with \"# vtk DataFile\""));
         };
         let number = version.trim().trim_start_matches("Version").trim().split('.').next();
         reader.major = number.and_then(|n| n.parse().ok()).unwrap_or_default();
-        reader.line();
-        reader.binary = match reader.line() {
+        // the title, in any encoding
+        reader.raw_line();
+        reader.binary = match reader.line()? {
             Some(l) if l.eq_ignore_ascii_case("ascii") => false,
             Some(l) if l.eq_ignore_ascii_case("binary") => true,
             _ => return Err(reader.error("the third line must be ASCII or BINARY")),
@@ -72,22 +83,36 @@ impl<'a> Reader<'a> {
         Problem { byte: self.at, what: what.into() }
     }
 
-    /// The rest of the line, trimmed; `None` at the end of the file.
-    pub fn line(&mut self) -> Option<&'a str> {
+    /// The rest of the line; `None` at the end of the file.
+    fn raw_line(&mut self) -> Option<&'a [u8]> {
         let rest = self.file.get(self.at..).filter(|r| !r.is_empty())?;
         let end = memchr::memchr(b'\n', rest).unwrap_or(rest.len());
         self.at += (end + 1).min(rest.len());
-        Some(std::str::from_utf8(&rest[..end]).unwrap_or("").trim())
+        Some(&rest[..end])
     }
 
-    /// The words of the next line that is not empty.
-    pub fn words(&mut self) -> Option<Vec<&'a str>> {
-        loop {
-            let line = self.line()?;
-            if !line.is_empty() {
-                return Some(line.split_whitespace().collect());
+    /// The rest of the line, trimmed; `None` at the end of the file. What is no text is an error: it is met where an array
+    /// was longer than its type says, and passing over it would lose the arrays after it.
+    fn line(&mut self) -> Result<Option<&'a str>, Problem> {
+        let begin = self.at;
+        let Some(line) = self.raw_line() else { return Ok(None) };
+        match std::str::from_utf8(line) {
+            Ok(text) => Ok(Some(text.trim())),
+            Err(e) => {
+                let what = "a byte that is no UTF-8 text, where a keyword or a number should be".to_owned();
+                Err(Problem { byte: begin + e.valid_up_to(), what })
             }
         }
+    }
+
+    /// The words of the next line that is not empty; none at the end of the file.
+    pub fn words(&mut self) -> Result<Vec<&'a str>, Problem> {
+        while let Some(line) = self.line()? {
+            if !line.is_empty() {
+                return Ok(line.split_whitespace().collect());
+            }
+        }
+        Ok(Vec::new())
     }
 
     /// The words of the next line that is not empty, which is not passed over.
@@ -100,7 +125,7 @@ impl<'a> Reader<'a> {
 
     /// The next line's words after `keyword`.
     pub fn expect(&mut self, keyword: &str, count: usize) -> Result<Vec<&'a str>, Problem> {
-        let words = self.words().unwrap_or_default();
+        let words = self.words()?;
         match words.split_first() {
             Some((first, rest)) if first.eq_ignore_ascii_case(keyword) && rest.len() >= count => Ok(rest.to_vec()),
             _ => Err(self.error(format!("{} where {keyword} should be", quoted(&words.join(" "))))),
@@ -112,13 +137,19 @@ impl<'a> Reader<'a> {
         word.parse().map_err(|_| self.error(format!("{} is not a number", quoted(word))))
     }
 
-    /// Where every array of the points and of the cells is.
+    /// Where every array of numbers of the points and of the cells is.
     pub fn data(&mut self, nodes: usize, cells: usize) -> Result<[Vec<Array<'a>>; 2], Problem> {
+        self.data_if_any(nodes, cells)?.ok_or_else(|| self.error("the file ends where POINT_DATA should be"))
+    }
+
+    /// The same; `None` where the file has no data.
+    pub fn data_if_any(&mut self, nodes: usize, cells: usize) -> Result<Option<[Vec<Array<'a>>; 2]>, Problem> {
         self.skip_metadata();
         let (mut found, mut which) = ([Vec::new(), Vec::new()], None);
-        while let Some(words) = self.words() {
-            let keyword = words[0].to_ascii_uppercase();
-            let rest = words.get(1..).unwrap_or_default();
+        loop {
+            let words = self.words()?;
+            let Some((first, rest)) = words.split_first() else { break };
+            let keyword = first.to_ascii_uppercase();
             match (keyword.as_str(), rest) {
                 ("POINT_DATA" | "CELL_DATA", [count, ..]) => {
                     let of_cells = keyword == "CELL_DATA";
@@ -131,7 +162,7 @@ impl<'a> Reader<'a> {
                     continue;
                 }
                 ("METADATA", _) => {
-                    while self.line().is_some_and(|l| !l.is_empty()) {}
+                    self.pass_block();
                     continue;
                 }
                 _ => {}
@@ -146,14 +177,15 @@ impl<'a> Reader<'a> {
             };
             let mut arrays = self.arrays(&keyword, rest, tuples)?;
             arrays.retain(|a| tuples.checked_mul(a.components) == Some(a.count));
+            let (texts, arrays): (Vec<_>, Vec<_>) = arrays.into_iter().partition(Array::is_text);
             if let Some(found) = found.get_mut(place) {
                 found.extend(arrays);
             }
+            if place == 1 {
+                self.texts.extend(texts);
+            }
         }
-        if which.is_none() {
-            return Err(self.error("the file ends where POINT_DATA should be"));
-        }
-        Ok(found)
+        Ok(which.map(|_| found))
     }
 
     /// The arrays that a line announces.
@@ -161,6 +193,17 @@ impl<'a> Reader<'a> {
         Ok(match (keyword, rest) {
             ("VECTORS" | "NORMALS", [name, kind]) => vec![self.array(name, 3, tuples, kind)?],
             ("TENSORS", [name, kind]) => vec![self.array(name, 9, tuples, kind)?],
+            ("TENSORS6", [name, kind]) => vec![self.array(name, 6, tuples, kind)?],
+            (COLOR, [name, components]) => {
+                let components = self.parse(components)?;
+                vec![self.array(name, components, tuples, if self.binary { "unsigned_char" } else { COLOR })?]
+            }
+            // the colours of a table that scalars named: no values of anything
+            ("LOOKUP_TABLE", [name, count]) => {
+                let count = self.parse(count)?;
+                self.array(name, 4, count, "unsigned_char")?;
+                Vec::new()
+            }
             ("GLOBAL_IDS" | "PEDIGREE_IDS", [name, kind]) => vec![self.array(name, 1, tuples, kind)?],
             ("TEXTURE_COORDINATES", [name, components, kind]) => {
                 let components = self.parse(components)?;
@@ -181,7 +224,7 @@ impl<'a> Reader<'a> {
         let mut arrays = Vec::new();
         for _ in 0..self.parse::<usize>(count)? {
             self.skip_metadata();
-            let words = self.words().unwrap_or_default();
+            let words = self.words()?;
             let [name, components, tuples, kind] = words[..] else {
                 return Err(self.error("a field array needs a name, components, tuples and a type"));
             };
@@ -218,14 +261,17 @@ impl<'a> Reader<'a> {
     pub fn skip_metadata(&mut self) {
         loop {
             let here = self.at;
-            match self.words() {
-                Some(words) if words[0] == "METADATA" => while self.line().is_some_and(|l| !l.is_empty()) {},
-                _ => {
-                    self.at = here;
-                    return;
-                }
+            if self.words().unwrap_or_default().first() != Some(&"METADATA") {
+                self.at = here;
+                return;
             }
+            self.pass_block();
         }
+    }
+
+    /// Passes over lines up to an empty one.
+    fn pass_block(&mut self) {
+        while self.raw_line().is_some_and(|l| !l.trim_ascii().is_empty()) {}
     }
 
     /// So many numbers of a VTK type; binary ones are big-endian.
@@ -233,11 +279,16 @@ impl<'a> Reader<'a> {
         self.at_least(count)?;
         if self.binary {
             let (stored, bytes) = self.binary(count, kind)?;
-            return Ok(stored.decode(bytes, true));
+            return Ok(match stored {
+                Some(stored) => stored.decode(bytes, true),
+                None => bits(bytes).take(count).collect(),
+            });
         }
+        let parsed =
+            if kind == COLOR { |w: &str| f64::parsed(w).map(|x| T::real((255.0 * x).round())) } else { T::parsed };
         let mut values = Vec::new();
         let all = self.ascii(count, |reader, word| {
-            let value = T::parsed(word).ok_or_else(|| reader.error(format!("{} is not a number", quoted(word))))?;
+            let value = parsed(word).ok_or_else(|| reader.error(format!("{} is not a number", quoted(word))))?;
             values.push(value);
             Ok(())
         });
@@ -247,6 +298,9 @@ impl<'a> Reader<'a> {
     /// Passes over so many numbers of a VTK type.
     fn pass(&mut self, count: usize, kind: &str) -> Result<(), Problem> {
         self.at_least(count)?;
+        if is_text(kind) {
+            return (0..count).try_for_each(|_| self.text().map(drop));
+        }
         if self.binary { self.binary(count, kind).map(drop) } else { self.ascii(count, |_, _| Ok(())) }
     }
 
@@ -261,7 +315,7 @@ impl<'a> Reader<'a> {
     fn ascii(&mut self, count: usize, mut take: impl FnMut(&Self, &str) -> Result<(), Problem>) -> Result<(), Problem> {
         let mut met = 0;
         while met < count {
-            let Some(line) = self.line() else {
+            let Some(line) = self.line()? else {
                 return Err(self.error(format!("the file ends after {met} of {count} values")));
             };
             for word in line.split_ascii_whitespace() {
@@ -272,15 +326,28 @@ impl<'a> Reader<'a> {
         if met > count { Err(self.error(format!("more than {count} values"))) } else { Ok(()) }
     }
 
-    fn binary(&mut self, count: usize, kind: &str) -> Result<(Stored, &'a [u8]), Problem> {
-        let Some(stored) = Stored::legacy(kind) else {
-            return Err(self.error(format!("binary values of type {}, which is not read", quoted(kind))));
+    /// The bytes of so many numbers, and how they are stored; bits in no way of their own.
+    fn binary(&mut self, count: usize, kind: &str) -> Result<(Option<Stored>, &'a [u8]), Problem> {
+        let (stored, bytes) = match Stored::legacy(kind) {
+            Some(stored) => (Some(stored), count.checked_mul(stored.width())),
+            None if kind.eq_ignore_ascii_case("bit") => (None, Some(count.div_ceil(8))),
+            None => return Err(self.error(format!("binary values of type {}, which is not read", quoted(kind)))),
         };
-        let end = count.checked_mul(stored.width()).and_then(|n| n.checked_add(self.at));
-        let Some(bytes) = end.and_then(|end| self.file.get(self.at..end)) else {
+        let Some(bytes) = bytes.and_then(|n| self.take(n)) else {
             return Err(self.error(format!("the file ends before {count} values")));
         };
-        self.at += bytes.len();
         Ok((stored, bytes))
     }
+
+    /// The next bytes, if there are so many.
+    fn take(&mut self, bytes: usize) -> Option<&'a [u8]> {
+        let taken = self.file.get(self.at..)?.get(..bytes)?;
+        self.at += bytes;
+        Some(taken)
+    }
+}
+
+/// Bits as numbers, the highest of each byte first.
+fn bits<T: Number>(bytes: &[u8]) -> impl Iterator<Item = T> {
+    bytes.iter().flat_map(|b| (0..8).rev().map(move |i| T::whole(i64::from(b >> i & 1))))
 }

@@ -133,9 +133,10 @@ impl Stored {
         Some(match name.to_ascii_lowercase().as_str() {
             "double" => Self::F64,
             "float" => Self::F32,
-            "long" | "vtkidtype" | "vtktypeint64" => Self::I64,
+            "long" | "vtktypeint64" => Self::I64,
             "unsigned_long" | "vtktypeuint64" => Self::U64,
-            "int" => Self::I32,
+            // VTK writes its ids as int, however wide they are in memory
+            "int" | "vtkidtype" => Self::I32,
             "unsigned_int" => Self::U32,
             "short" => Self::I16,
             "unsigned_short" => Self::U16,

@@ -3,7 +3,7 @@
 use super::Options;
 use super::data::{Arrays, Described, gather};
 use super::grid::{Grid, Shells, polygons, stream};
-use super::legacy::{Array, Problem, Reader};
+use super::legacy::{Array, Problem, Reader, decoded};
 use crate::{Error, Polygons};
 use carom_table::clipped;
 use std::path::Path;
@@ -14,31 +14,11 @@ pub(super) fn grid(file: &[u8], path: &Path, options: &Options) -> Result<Grid, 
     let mut reader = Reader::new(file).map_err(fail)?;
     let mut grid = geometry(&mut reader).map_err(fail)?;
     grid.check().map_err(|what| Error::file(path, what))?;
-    let arrays = reader.data(grid.points.len(), grid.kinds.len()).map_err(fail)?;
-    let describe = |a: &Array| Described { name: decoded(a.name), components: a.components };
+    let arrays = reader.data_if_any(grid.points.len(), grid.kinds.len()).map_err(fail)?.unwrap_or_default();
+    let describe = |a: &Array| Described { name: decoded(a.name.as_bytes()), components: a.components };
     let listed = [0, 1].map(|list| arrays[list].iter().map(describe).collect());
     gather(&mut grid, &mut InLegacy { reader, arrays, listed }, path, options)?;
     Ok(grid)
-}
-
-/// A name as it was: in these files what is not plain is written as in addresses of the web.
-fn decoded(name: &str) -> String {
-    let mut bytes = Vec::new();
-    let mut rest = name.as_bytes();
-    while let Some((first, after)) = rest.split_first() {
-        let hex = after.get(..2).filter(|_| *first == b'%').and_then(|h| std::str::from_utf8(h).ok());
-        match hex.and_then(|h| u8::from_str_radix(h, 16).ok()) {
-            Some(byte) => {
-                bytes.push(byte);
-                rest = &after[2..];
-            }
-            None => {
-                bytes.push(*first);
-                rest = after;
-            }
-        }
-    }
-    String::from_utf8_lossy(&bytes).into_owned()
 }
 
 fn geometry(reader: &mut Reader) -> Result<Grid, Problem> {
@@ -52,7 +32,7 @@ fn geometry(reader: &mut Reader) -> Result<Grid, Problem> {
     while reader.peek().first().is_some_and(|w| w.eq_ignore_ascii_case("FIELD")) {
         let count = reader.expect("FIELD", 2)?[1];
         for array in reader.field(count)? {
-            if matches!(array.name, "TimeValue" | "TIME") && array.count == 1 {
+            if matches!(array.name, "TimeValue" | "TIME") && array.count == 1 && !array.is_text() {
                 grid.time = reader.again(&array)?.first().copied();
             }
         }
@@ -153,10 +133,12 @@ impl Arrays for InLegacy<'_> {
     }
 
     fn text_names(&self) -> Vec<String> {
-        Vec::new()
+        self.reader.text_arrays().iter().map(|a| decoded(a.name.as_bytes())).collect()
     }
 
-    fn texts(&mut self, _: &str) -> Option<Result<Vec<String>, String>> {
-        None
+    fn texts(&mut self, name: &str) -> Option<Result<Vec<String>, String>> {
+        let all = self.reader.text_arrays();
+        let array = *all.iter().find(|a| a.components == 1 && decoded(a.name.as_bytes()) == name)?;
+        Some(self.reader.texts(&array).map_err(|p| format!("array {}: {}", clipped(array.name), p.what)))
     }
 }

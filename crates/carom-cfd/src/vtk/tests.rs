@@ -4,6 +4,7 @@ use crate::{Field, Mesh, PatchKind};
 use std::path::PathBuf;
 
 mod broken;
+mod legacy;
 
 /// Written by the vtk package and by foamToVTK: see tests/vtk/make.py and tests/vtk/foam/foam.sh.
 fn path(name: &str) -> PathBuf {

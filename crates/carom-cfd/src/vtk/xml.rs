@@ -90,7 +90,8 @@ pub struct Form<'a> {
     /// Sizes have 8 bytes instead of 4.
     wide: bool,
     big_endian: bool,
-    compressor: Option<Compressor>,
+    /// Or why what is compressed is not read.
+    compressor: Result<Option<Compressor>, String>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -105,17 +106,16 @@ pub const MOST_PACKED: usize = 1032;
 impl<'a> Form<'a> {
     /// Of a file with that root element.
     pub fn of(root: Node, parts: &Parts<'a>) -> Result<Self, String> {
+        // ASCII files may name one too, and have nothing that is compressed
         let compressor = match root.attribute("compressor") {
-            None | Some("") => None,
-            Some("vtkZLibDataCompressor") => Some(Compressor::Zlib),
-            Some("vtkLZ4DataCompressor") => Some(Compressor::Lz4),
-            Some(other) => {
-                return Err(format!(
-                    "compressed by {}, which is not read: choose ZLib, LZ4 or None as its compression when saving (in ParaView's \
-                     Save Data: Compressor Type), or save it as legacy VTK (.vtk)",
-                    clipped(other)
-                ));
-            }
+            None | Some("") => Ok(None),
+            Some("vtkZLibDataCompressor") => Ok(Some(Compressor::Zlib)),
+            Some("vtkLZ4DataCompressor") => Ok(Some(Compressor::Lz4)),
+            Some(other) => Err(format!(
+                "compressed by {}, which is not read: choose ZLib, LZ4 or None as its compression when saving (in ParaView's \
+                 Save Data: Compressor Type), or save it as legacy VTK (.vtk)",
+                clipped(other)
+            )),
         };
         let wide = root.attribute("header_type") == Some("UInt64");
         let big_endian = root.attribute("byte_order") == Some("BigEndian");
@@ -141,7 +141,10 @@ impl<'a> Form<'a> {
         let text = array.text().unwrap_or_default();
         match array.attribute("format") {
             Some("appended") => self.appended(array).and_then(|stretch| self.binary(stretch, count, array)),
-            Some("binary") => self.binary(Stretch { rest: text.trim().as_bytes(), encoded: true }, count, array),
+            Some("binary") => {
+                let text = unwrapped(text.trim());
+                self.binary(Stretch { rest: text.as_bytes(), encoded: true }, count, array)
+            }
             _ => text
                 .split_whitespace()
                 .map(|w| T::parsed(w).ok_or_else(|| format!("{} is not a number", quoted(w))))
@@ -166,7 +169,7 @@ impl<'a> Form<'a> {
             Some(count) => Some(count.checked_mul(stored.width()).ok_or("too many values")?),
             None => None,
         };
-        let bytes = match self.compressor {
+        let bytes = match self.compressor.clone()? {
             Some(compressor) => Cow::Owned(self.unpack(compressor, &mut stretch, wanted)?),
             None => self.plain(&mut stretch, wanted)?,
         };
@@ -239,6 +242,15 @@ impl<'a> Form<'a> {
             }
         }
         Ok(bytes)
+    }
+}
+
+/// Base64 without the ends of lines and spaces that it may have been broken by.
+fn unwrapped(text: &str) -> Cow<'_, str> {
+    if text.bytes().any(|b| b.is_ascii_whitespace()) {
+        Cow::Owned(text.split_ascii_whitespace().collect())
+    } else {
+        Cow::Borrowed(text)
     }
 }
 

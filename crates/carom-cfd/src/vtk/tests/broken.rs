@@ -168,6 +168,84 @@ fn values_and_places_that_are_none_are_named() {
 }
 
 #[test]
+fn what_no_cell_is_made_of_may_have_no_value() {
+    let mut places = brick([0.0; 3], UNIT).to_vec();
+    places.extend([[5.0; 3], [f64::NAN; 3]]);
+    let cells: [(u8, &[u32]); 3] = [(12, &ALL), (9, &[0, 3, 2, 1]), (3, &[0, 8])];
+    let t = "<DataArray type=\"Float64\" Name=\"T\">300 nan nan</DataArray>";
+    let text = xml(&places, &cells, ["", t]);
+    let unused = text.replacen("1 0 0 </DataArray>", "nan 0 0 </DataArray>", 1);
+    for text in [&text, &unused] {
+        let snapshot = given(text).unwrap();
+        assert_eq!((snapshot.mesh.points.len(), points(&snapshot.fields.velocity)), (8, &[[1.0, 0.0, 0.0]; 8][..]));
+        assert_eq!(cells_of(&snapshot), [300.0]);
+    }
+    // a polygon without a value is as one of no file
+    let told = from_bytes(
+        text.replace("<CellData>", "<CellData><DataArray type=\"Int32\" Name=\"zone\">0 7 0</DataArray>").into_bytes(),
+        &told(Some("zone")),
+    );
+    let notes = told.unwrap().notes;
+    assert!(notes.iter().any(|n| n.contains("gives it no values on 7, boundary")), "{notes:?}");
+    fails(&text.replace("300 nan", "nan 300"), "\"T\" is NaN in cell 0");
+    fails(&xml(&places, &[(12, &ALL), (5, &[0, 1, 9])], [""; 2]), "point 9 is no place");
+}
+
+fn cells_of(snapshot: &Snapshot) -> Vec<f64> {
+    cells(&snapshot.fields.temperature).0.as_flattened().to_vec()
+}
+
+#[test]
+fn what_only_ghosts_have_may_be_no_value() {
+    // two bricks in each of two pieces, one of which is the other piece's
+    let row = [brick([0.0; 3], UNIT), brick([1.0, 0.0, 0.0], [2.0, 1.0, 1.0])].concat();
+    let other: Vec<u32> = ALL.iter().map(|i| i + 8).collect();
+    let file = |ghost: usize| {
+        let of = |values: [&str; 2]| if ghost == 0 { values.join(" ") } else { [values[1], values[0]].join(" ") };
+        let ghosts = format!("<DataArray type=\"UInt8\" Name=\"vtkGhostType\">{}</DataArray>", of(["1", "0"]));
+        let t = format!("<DataArray type=\"Float64\" Name=\"T\">{}</DataArray>", of(["nan", "300"]));
+        let p = of([&"inf ".repeat(8), &"7 ".repeat(8)]);
+        let p = format!("<DataArray type=\"Float64\" Name=\"p\">{p}</DataArray>");
+        let text = xml(&row, &[(12, &ALL), (12, &other)], [&p, &format!("{ghosts}{t}")]);
+        text.split_once("<UnstructuredGrid>").unwrap().1.split_once("</UnstructuredGrid>").unwrap().0.to_owned()
+    };
+    let body = [file(0), file(1)].concat();
+    let text = format!("<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid>{body}</UnstructuredGrid></VTKFile>");
+    let snapshot = given(&text).unwrap();
+    assert_eq!((cells_of(&snapshot), points(&snapshot.fields.pressure)), (vec![300.0; 2], &[[7.0]; 12][..]));
+    assert!(!snapshot.notes.iter().any(|n| n.contains("differ")), "{:?}", snapshot.notes);
+}
+
+#[test]
+fn base64_may_be_broken_into_lines() {
+    for name in ["inline.vtu", "inline-zlib.vtu"] {
+        let text = std::fs::read_to_string(path(name)).unwrap();
+        let wrap = |line: &str| if line.contains('<') { format!("{line}\n") } else { broken_up(line) };
+        let wrapped: String = text.lines().map(wrap).collect();
+        assert!(wrapped.len() > text.len() + 100, "{name}");
+        let (found, wanted) = (given(&wrapped).unwrap(), get(name));
+        assert_eq!((found.mesh.points, found.fields.velocity), (wanted.mesh.points, wanted.fields.velocity), "{name}");
+    }
+}
+
+/// A line in lines of 30 characters.
+fn broken_up(line: &str) -> String {
+    line.as_bytes().chunks(30).map(|part| format!("  {}\r\n", String::from_utf8_lossy(part))).collect()
+}
+
+#[test]
+fn a_compressor_that_is_not_read_does_not_matter_to_ascii() {
+    let named = |name: &str| {
+        let text = std::fs::read_to_string(path(name)).unwrap();
+        let text = text.replace(" compressor=\"vtkZLibDataCompressor\"", "");
+        given(&text.replacen("<VTKFile ", "<VTKFile compressor=\"vtkLZMADataCompressor\" ", 1))
+    };
+    assert_eq!(named("ascii.vtu").unwrap().fields, get("ascii.vtu").fields);
+    let refused = named("inline-zlib.vtu").unwrap_err();
+    assert!(refused.contains("compressed by vtkLZMADataCompressor, which is not read"), "{refused}");
+}
+
+#[test]
 fn thin_walls_keep_their_sides() {
     // two bricks with points of their own where they touch, and a polygon for each side
     let mut points = brick([0.0; 3], UNIT).to_vec();
