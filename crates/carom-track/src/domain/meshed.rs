@@ -86,7 +86,7 @@ impl Meshed {
         let into = self.cells.find_ahead(x, slope);
         match self.cells.back_into_wedge(x, slope).filter(|_| into.is_nowhere()) {
             Some(carry) => {
-                let into = self.cells.find_ahead(carry.point(x), carry.vector(slope));
+                let (into, carry) = self.cells.carry_over(carry, x, slope);
                 Next::Carried { theta, into: self.prepared(into), carry }
             }
             None => Next::Edge { theta, into: self.prepared(into) },
@@ -249,9 +249,9 @@ impl Domain for Meshed {
             },
             Behind::Unknown => self.look_for(theta, x, slope),
             Behind::Carried(carry, known) => {
-                let into = match known {
-                    Some(tet) => self.cells.tetrahedron(tet).unwrap_or(Tetrahedron::NOWHERE),
-                    None => self.cells.find_ahead(carry.point(x), carry.vector(slope)),
+                let (into, carry) = match known {
+                    Some(tet) => (self.cells.tetrahedron(tet).unwrap_or(Tetrahedron::NOWHERE), carry),
+                    None => self.cells.carry_over(carry, x, slope),
                 };
                 Next::Carried { theta, into: self.prepared(into), carry }
             }

@@ -6,6 +6,7 @@
 
 mod beyond;
 mod cut;
+mod gaps;
 mod locate;
 mod making;
 mod near_walls;

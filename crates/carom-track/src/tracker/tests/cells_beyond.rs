@@ -54,6 +54,50 @@ fn cyclic_patches_whose_faces_do_not_match_carry_over() {
     goes_on_as_the_long_one(kind, place, |_| [3.0, 0.4, 0.2]);
 }
 
+#[test]
+fn cyclic_patches_a_rounding_apart_carry_over() {
+    // carried points lie 1e-7 of the mesh outside
+    let kind = |partner, by: f64| PatchKind::Cyclic { partner, carry: Carry::by([(1.0 + 1e-7) * by, 0.0, 0.0]) };
+    goes_on_as_the_long_one(kind, |x| x, |x| [9.0 * x[1] * (1.0 - x[1]), 0.0, 0.2]);
+}
+
+#[test]
+fn chords_that_do_not_coincide_carry_over() {
+    // both sides are arcs of the same bow, cut into three chords at other places: as the sides of a rotor that has turned
+    let place = |x: Vec3| {
+        let y = x[1] + 0.4 * x[0] * x[1] * (1.0 - x[1]);
+        [x[0] + 0.4 * y * (1.0 - y), y, x[2]]
+    };
+    let kinds = |name: &str| match name {
+        "left" => PatchKind::CyclicAmi { partner: 1, carry: Carry::by([1.0, 0.0, 0.0]) },
+        "right" => PatchKind::CyclicAmi { partner: 0, carry: Carry::by([-1.0, 0.0, 0.0]) },
+        _ => PatchKind::Wall,
+    };
+    // along the bow, so that spheres go in and out of its chords, and across
+    for u in [[0.1, 1.0, 0.0], [3.0, 0.4, 0.2]] {
+        let mesh = domain(&with_velocity(sides([4, 3, 2], kinds, place), |_| u));
+        let row = domain(&with_velocity(block(Kind::Hexahedra, [16, 3, 2], |x| [8.0 * x[0] - 4.0, x[1], x[2]]), |_| u));
+        // in the middle of the box and beside its seam
+        let all: Vec<Particle> = (0..200)
+            .map(|i| {
+                let (a, b) = (f64::from(i) / 200.0, f64::from(i % 20) / 20.0);
+                Particle::sphere(i as u64, 40e-6, 2000.0, [0.35 + 0.7 * b, 0.1 + 0.8 * a, 0.47], u)
+            })
+            .collect();
+        let cells = Cells::new(&with_velocity(sides([4, 3, 2], kinds, place), |_| u)).unwrap();
+        let starts: Vec<Particle> = all.into_iter().filter(|p| cells.holds(p.position)).collect();
+        assert!(starts.len() > 100);
+        let d = floating(Drag::SchillerNaumann);
+        let (got, want) = (fly(&mesh, &d, bounce(0.8), 0.4, &starts), fly(&row, &d, bounce(0.8), 0.4, &starts));
+        for (got, want) in got.ends.iter().zip(&want.ends) {
+            assert_eq!(got.fate, want.fate, "{got:?}");
+            let [x, y, z] = sub(got.position, want.position);
+            // the gaps are up to 0.02 wide, and gone over once or more
+            assert!(norm([x - x.round(), y, z]) < 0.1, "{got:?} {want:?}");
+        }
+    }
+}
+
 /// A box that goes on from right to left, with `place` for its points, against four of it in a row.
 fn goes_on_as_the_long_one(
     kind: impl Fn(usize, f64) -> PatchKind,
