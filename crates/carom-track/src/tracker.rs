@@ -14,6 +14,7 @@ mod kinds;
 mod lane;
 mod meeting;
 mod removal;
+mod rounding;
 mod settings;
 mod staying;
 mod undisturbed;

@@ -20,6 +20,7 @@ mod surface;
 use super::Walk;
 use super::cross::{NO_WAY, ROUND};
 use super::meeting::LOWEST;
+use super::rounding::{GOOD, Tried};
 use super::walk::least_step;
 use crate::domain::{Domain, Hit, Next};
 use crate::dynamics::Bodies;
@@ -387,6 +388,12 @@ impl<'a, D: Domain> Contact<'a, D> {
             exponential::step(&[self.time], &start, &first, &[h], control, &acting, &mut out);
         } else {
             step(&[self.time], &start, &first, &[h], control, &acting, &mut out);
+        }
+        let speed = [m.v, out.end.v.map(|c| c[0]), first.a.map(|c| h * c[0])].map(norm);
+        let speed = speed.into_iter().fold(0.0, f64::max);
+        let tried = Tried { from: m.x, h, error_squared: out.error_squared[0], speed, drag_rate: first.drag[0] };
+        if tried.error_squared > 1.0 && tried.is_rounding(control.tolerance) {
+            out.error_squared = [GOOD];
         }
         out
     }

@@ -13,7 +13,7 @@ use crate::geometry::evaluate;
 use crate::integrate::{Control, Derivative, Lanes, Motion, Rates, growth};
 use crate::lanes::{bits, mask, take_lowest};
 use crate::record::{End, ParticleFate, Sink};
-use crate::vector::{Vec3, add, norm};
+use crate::vector::{Vec3, add};
 use carom::instructions::InstructionSet;
 
 /// All that stays the same during a run in one kind of domain.
@@ -266,30 +266,6 @@ impl<D: Domain> Walk<'_, D> {
         let mut rates = Rates::ZERO;
         self.dynamics.rates(self.domain, &D::Many::all(here), &[true], &[time], body, &one, &mut rates);
         rates
-    }
-
-    /// A step whose error moves a place by less than it can hold is not refused: that much is rounding, and shorter steps have no less of
-    /// it. So creeps what comes to a wall without end, 1e-13 m from it.
-    #[inline(always)]
-    fn forgive_rounding<const W: usize>(&self, crew: &mut Crew<W, D::Many<W>>, control: Control) {
-        /// Square of an error that is good enough.
-        const GOOD: f64 = 0.4;
-        let mut refused = [0; W];
-        for l in 0..W {
-            refused[l] = mask(crew.busy[l]) & mask(crew.step.error_squared[l] > 1.0);
-        }
-        let mut refused = bits(&refused);
-        while let Some(l) = take_lowest(&mut refused) {
-            let (x, v, _) = motion_of(&crew.motion, l);
-            let kick = crew.h[l] * norm([0, 1, 2].map(|c| crew.rates.a[c][l]));
-            // at least the speed that the error is relative to
-            let speed = norm(v).max(norm(motion_of(&crew.step.end, l).1)).max(kick);
-            let error = crew.step.error_squared[l].sqrt() * control.tolerance * speed;
-            // an error of the velocity lasts as long as drag lets it
-            if error * crew.h[l].max(1.0 / crew.bodies.drag_rate[l]) < f64::EPSILON * norm(x) {
-                crew.step.error_squared[l] = GOOD;
-            }
-        }
     }
 
     /// The longest steps worth trying, where the flow has pieces.

@@ -2,6 +2,7 @@
 
 use super::Cells;
 use super::cut::NONE;
+use super::tetrahedron::ROUNDING;
 use crate::geometry::{Bounds, Halves, Tree};
 use crate::vector::Vec3;
 use rayon::prelude::*;
@@ -13,9 +14,6 @@ pub(super) struct Locator {
     /// Cells in the order in which leaves name them.
     order: Vec<u32>,
 }
-
-/// A point beyond a side by this share of a tetrahedron's height is in it, to rounding.
-const ROUNDING: f64 = 1e-9;
 
 impl Locator {
     pub fn new(cells: &Cells) -> Self {

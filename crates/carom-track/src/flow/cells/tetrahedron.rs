@@ -30,6 +30,11 @@ pub struct Tetrahedron {
 /// A ratio of volume to the product of edges below which a tetrahedron is flat: its λᵢ are noise.
 pub(super) const FLAT: f64 = 1e-12;
 
+/// A point beyond a side by this share of a tetrahedron's height is in it, to rounding.
+pub(super) const ROUNDING: f64 = 1e-9;
+/// A change of λ that is no more than rounding, over the steepest λ and the way.
+const ROUNDED: f64 = 16.0 * f64::EPSILON;
+
 impl fmt::Debug for Tetrahedron {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         write!(f, "tetrahedron {}", self.id)
@@ -86,15 +91,19 @@ impl Tetrahedron {
     #[inline(always)]
     pub(crate) fn exit(&self, path: &Path) -> Option<(f64, usize)> {
         let start = self.coordinates(path.start);
+        let size = |v: Vec3| dot(v, v).sqrt();
+        let rounded = -ROUNDED * self.dual.map(size).into_iter().fold(0.0, f64::max);
         let mut first: Option<(f64, usize)> = None;
         for (side, start) in start.into_iter().enumerate() {
             let n = self.normal(side);
-            let mut least = f64::INFINITY;
+            let (mut least, mut along) = (f64::INFINITY, start > -ROUNDING);
             for p in &path.points {
                 let change = dot(n, *p);
                 least = if change < least { change } else { least };
+                along &= change > rounded * size(*p);
             }
-            if start + least > 0.0 {
+            // what goes along a side does not leave by it: both pieces there would hand it to the other by rounding, for ever
+            if along || start + least > 0.0 {
                 continue;
             }
             let found = leaves(start, &path.along(n));

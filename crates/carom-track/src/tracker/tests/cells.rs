@@ -347,3 +347,63 @@ fn what_creeps_to_a_wall_takes_no_steps_for_rounding() {
     let (early, late) = (steps(0.2), steps(2.0));
     assert!(late < early + 500, "{early} steps in 0.2 s, {late} in 2 s");
 }
+
+/// Arcs of a bow along y in place of straight columns.
+fn bow(x: Vec3) -> Vec3 {
+    let y = x[1] + 0.4 * x[0] * x[1] * (1.0 - x[1]);
+    [x[0] + 0.4 * y * (1.0 - y), y, x[2]]
+}
+
+/// Turned about y, and moved.
+fn turn(x: Vec3) -> Vec3 {
+    let (sin, cos) = carom::math::sin_cos(0.7);
+    [cos * x[0] - sin * x[2] + 0.3, x[1], sin * x[0] + cos * x[2] - 0.2]
+}
+
+/// A block seen by `place`, with an even flow along `u`, and the start of a sphere beside others in the plane in its middle; both seen by `seen`.
+fn in_the_middle(
+    kind: Kind,
+    place: fn(Vec3) -> Vec3,
+    seen: fn(Vec3) -> Vec3,
+    u: Vec3,
+) -> (AnyDomain, impl Fn(u64) -> Particle) {
+    let along = crate::vector::sub(seen(u), seen([0.0; 3]));
+    let start = move |i: u64| {
+        let x = seen([0.25 + (i % 5) as f64 / 12.0, 0.25 + (i / 5) as f64 / 24.0, 0.5]);
+        Particle::sphere(i, 40e-6, 2000.0, x, along)
+    };
+    (domain(&with_velocity(block(kind, [4, 3, 2], place), |_| along)), start)
+}
+
+/// In the plane of faces, along edges and through points of the mesh both sides hold a sphere to rounding.
+#[test]
+fn what_flies_along_faces_and_edges_gets_on() {
+    type Map = fn(Vec3) -> Vec3;
+    let straight: Map = |x| x;
+    let maps: [[Map; 2]; 4] = [[straight, straight], [bow, straight], [turn, turn], [|x| turn(bow(x)), turn]];
+    for kind in Kind::ALL {
+        for [place, seen] in maps {
+            for u in [[0.1, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0], [0.75, 1.0, 0.0]] {
+                let (mesh, start) = in_the_middle(kind, place, seen, u);
+                let starts: Vec<Particle> = (0..60).map(start).collect();
+                let log = fly(&mesh, &floating(Drag::SchillerNaumann), Behavior::Trap, 0.4, &starts);
+                assert_eq!((log.ends.len(), log.stalled), (60, 0), "{kind:?} {u:?}");
+                for end in &log.ends {
+                    assert_ne!(end.fate, ParticleFate::Stuck, "{kind:?} {u:?} {end:?}");
+                    assert!(end.steps < 400, "{kind:?} {u:?} {end:?}");
+                }
+            }
+        }
+    }
+}
+
+/// The drift of one that is held by two walls is that of rounding, which no shorter steps tell better.
+#[test]
+fn what_is_held_in_a_corner_takes_few_steps() {
+    let (mesh, start) = in_the_middle(Kind::Pyramids, |x| turn(bow(x)), turn, [1.0, 1.0, 0.0]);
+    let starts: Vec<Particle> = (45..55).map(start).collect();
+    let log = fly(&mesh, &floating(Drag::SchillerNaumann), bounce(0.8), 0.5, &starts);
+    assert_eq!(log.stalled, 0);
+    assert!(log.ends.iter().any(|e| e.fate == ParticleFate::Sliding));
+    assert!(log.ends.iter().all(|e| e.steps < 4000), "{:?}", log.ends);
+}
