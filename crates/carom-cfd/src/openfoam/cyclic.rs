@@ -95,6 +95,9 @@ fn cleared(shift: [f64; 3], reach: f64, told: &Told) -> [f64; 3] {
     told.unwrap_or(shift.map(|x| if x.abs() < 1e-12 * reach { 0.0 } else { x }))
 }
 
+/// How far sides of unlike faces may lie beside each other, over their size: what faces cut off of a curved side.
+const ASIDE: f64 = 0.05;
+
 /// For sides that cover each other as a whole.
 pub(super) fn between_areas(mesh: &Mesh, own: Range<usize>, other: Range<usize>, told: &Told) -> Result<Carry, String> {
     let (a, b) = (sides(mesh, own), sides(mesh, other));
@@ -122,10 +125,16 @@ pub(super) fn between_areas(mesh: &Mesh, own: Range<usize>, other: Range<usize>,
         let near = length(shift) < 1e-2 * a.reach;
         return Ok(Carry::by(if near { [0.0; 3] } else { cleared(shift, a.reach, told) }));
     }
-    match told.axis.and_then(unit) {
-        Some(axis) => Ok(about(axis, told.centre.unwrap_or_default(), &[a], &[b])),
-        None => Err("is turned against its other side, and has no rotationAxis and rotationCentre".into()),
+    let Some(axis) = told.axis.and_then(unit) else {
+        return Err("is turned against its other side, and has no rotationAxis and rotationCentre".into());
+    };
+    let carry = about(axis, told.centre.unwrap_or_default(), std::slice::from_ref(&a), std::slice::from_ref(&b));
+    let off = length(sub(carry.point(a.centre), b.centre));
+    let turned = length(add(carry.vector(a.area), b.area));
+    if off < ASIDE * a.reach && turned < ASIDE * length(a.area) {
+        return Ok(carry);
     }
+    Err("is not brought onto its other side by any rotation about its rotationAxis and rotationCentre".into())
 }
 
 /// The rotation about an axis that fits best.

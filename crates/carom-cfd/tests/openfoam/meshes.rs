@@ -77,6 +77,26 @@ fn a_rotation_is_the_same_told_in_every_way_and_not_told() {
 }
 
 #[test]
+fn an_axis_that_does_not_lead_onto_the_other_side_is_refused() {
+    let as_ami = |axis: &str| {
+        let (_folder, case) = copied("ring");
+        let file = case.join("constant/polyMesh/boundary");
+        for _ in 0..2 {
+            edit(&file, "type            cyclic;", "type cyclicAMI;");
+            edit(&file, "rotationAxis    (0 0 1);", axis);
+        }
+        read(&case, &Options::default())
+    };
+    let mesh = as_ami("rotationAxis (0 0 -1);").unwrap().mesh;
+    let PatchKind::CyclicAmi { carry, .. } = mesh.patches[2].kind else { panic!("{:?}", mesh.patches[2]) };
+    assert!((carry.rotation[0][0] - 0.5).abs() < 1e-3, "{carry:?}");
+    for axis in ["rotationAxis (0 1 0);", "rotationAxis (1 1 1);", "rotationAxis (0.3 0 1);"] {
+        let error = as_ami(axis).unwrap_err().to_string();
+        assert!(error.contains("low") && error.contains("rotationAxis and rotationCentre"), "{axis}: {error}");
+    }
+}
+
+#[test]
 fn a_mesh_that_moves_is_the_newest_up_to_the_time() {
     let (_folder, case) = copied("block");
     fs::create_dir_all(case.join("1.5/polyMesh")).unwrap();
