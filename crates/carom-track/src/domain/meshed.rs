@@ -85,12 +85,13 @@ impl Meshed {
     fn look_for(&self, theta: f64, x: Vec3, slope: Vec3) -> Next<Tetrahedron> {
         let into = self.cells.find_ahead(x, slope);
         match self.cells.back_into_wedge(x, slope).filter(|_| into.is_nowhere()) {
-            Some(carry) => {
-                let (into, carry) = self.cells.carry_over(carry, x, slope);
-                Next::Carried { theta, into: self.prepared(into), carry }
-            }
+            Some(carry) => self.carried(theta, self.cells.carry_back(carry, x, slope)),
             None => Next::Edge { theta, into: self.prepared(into) },
         }
+    }
+
+    fn carried(&self, theta: f64, (into, carry): (Tetrahedron, Carry)) -> Next<Tetrahedron> {
+        Next::Carried { theta, into: self.prepared(into), carry }
     }
 
     /// Whether a lane's path meets a wall up to θ.
@@ -248,13 +249,11 @@ impl Domain for Meshed {
                 None => self.look_for(theta, x, slope),
             },
             Behind::Unknown => self.look_for(theta, x, slope),
-            Behind::Carried(carry, known) => {
-                let (into, carry) = match known {
-                    Some(tet) => (self.cells.tetrahedron(tet).unwrap_or(Tetrahedron::NOWHERE), carry),
-                    None => self.cells.carry_over(carry, x, slope),
-                };
-                Next::Carried { theta, into: self.prepared(into), carry }
+            Behind::Mirror(carry, tet) => {
+                self.carried(theta, (self.cells.tetrahedron(tet).unwrap_or(Tetrahedron::NOWHERE), carry))
             }
+            Behind::Turned(carry) => self.carried(theta, self.cells.carry_back(carry, x, slope)),
+            Behind::Paired(carry, partner) => self.carried(theta, self.cells.carry_behind(carry, partner, &here, x)),
             Behind::Patch(patch, triangle) => match self.through(patch, triangle, theta, path) {
                 Some(hit) => Next::Wall(hit),
                 None => Next::Edge { theta, into: Tetrahedron::NOWHERE },

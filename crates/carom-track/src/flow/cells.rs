@@ -79,8 +79,12 @@ pub(crate) enum Behind {
     Unknown,
     /// A patch that ends the space: its index, and the triangle, counted over the patch.
     Patch(usize, u32),
-    /// The space goes on elsewhere; with the tetrahedron there, where it is known.
-    Carried(Carry, Option<u32>),
+    /// The space goes on in the mirror image of a tetrahedron.
+    Mirror(Carry, u32),
+    /// The space goes on in the wedge, turned round its axis.
+    Turned(Carry),
+    /// The space goes on behind another patch, by its index.
+    Paired(Carry, usize),
 }
 
 /// A result that no flow can be made of.
@@ -266,15 +270,17 @@ impl Cells {
             PatchKind::Symmetry => {
                 let corners = self.cut.triangles[triangle as usize].map(|p| self.nodes[p as usize].place);
                 match unit(crate::vector::cross(sub(corners[1], corners[0]), sub(corners[2], corners[0]))) {
-                    Some(normal) => Behind::Carried(beyond::mirror(corners[0], normal), Some(here.id)),
+                    Some(normal) => Behind::Mirror(beyond::mirror(corners[0], normal), here.id),
                     None => Behind::Unknown,
                 }
             }
             PatchKind::Wedge => match &self.wedge {
-                Some(wedge) => Behind::Carried(wedge.back(x, slope), None),
+                Some(wedge) => Behind::Turned(wedge.back(x, slope)),
                 None => Behind::Unknown,
             },
-            PatchKind::Cyclic { carry, .. } | PatchKind::CyclicAmi { carry, .. } => Behind::Carried(*carry, None),
+            PatchKind::Cyclic { partner, carry } | PatchKind::CyclicAmi { partner, carry } => {
+                Behind::Paired(*carry, *partner)
+            }
             // met by rounding alone: the fields lie in the plane
             PatchKind::Empty => Behind::Unknown,
             _ => Behind::Patch(index, triangle - self.cut.first[patch.faces.start]),

@@ -9,7 +9,7 @@
 
 mod falls;
 mod flats;
-mod nearest;
+pub(crate) mod nearest;
 mod piece;
 mod rim;
 mod surface;

@@ -23,6 +23,7 @@ pub(crate) use contact::first_contact;
 pub use cylinder::Cylinder;
 pub use faces::Ahead;
 pub(crate) use faces::{Face, single_descents};
+pub(crate) use mesh::nearest::nearest_point;
 pub(crate) use mesh::tree::{Halves, STACK, Tree};
 pub use mesh::{Mesh, Triangle};
 pub use nearness::{Nearness, Wandering};

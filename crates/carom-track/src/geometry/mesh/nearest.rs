@@ -148,6 +148,11 @@ impl Mesh {
     }
 }
 
+/// The point of a triangle nearest to `x`.
+pub(crate) fn nearest_point(t: &Triangle, x: Vec3) -> Vec3 {
+    nearest(t, x).0
+}
+
 /// The point of a triangle nearest to `x`, and the part that it is on (Ericson 2005, *Real-Time Collision Detection*, section
 /// 5.1.5).
 pub(super) fn nearest(t: &Triangle, x: Vec3) -> (Vec3, Part) {

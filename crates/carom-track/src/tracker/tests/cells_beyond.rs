@@ -98,6 +98,42 @@ fn chords_that_do_not_coincide_carry_over() {
     }
 }
 
+/// Two blocks with 2 and with 6 faces between them, stored; bent, these are chords of one bow that lie beside each other, as where a rotor has turned.
+#[test]
+fn chords_of_bodies_that_touch_carry_over() {
+    let case = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../carom-cfd/tests/cases/ami");
+    let ways = [[1.0, 0.1, 0.05], [-1.0, 0.3, 0.0], [0.05, 0.6, 0.3], [-0.05, -0.6, 0.3]];
+    for (bow, u) in [1.0, -0.6].into_iter().flat_map(|bow| ways.map(|u| (bow, u))) {
+        let mut mesh = carom_cfd::openfoam::read(&case, &carom_cfd::openfoam::Options::default()).unwrap().mesh;
+        for x in &mut mesh.points {
+            x[0] += 0.4 * bow * (x[1] * (1.0 - x[1]) + x[2] * (1.0 - x[2]));
+        }
+        let snapshot = with_velocity(mesh, |_| u);
+        let cells = Cells::new(&snapshot).unwrap();
+        let mut dice = Dice::new(5);
+        let places = (0..400).map(|_| dice.point()).map(|x| [0.2 + 1.8 * x[0], x[1], x[2]]).filter(|x| cells.holds(*x));
+        let starts: Vec<Particle> = (0..).zip(places).map(|(i, x)| Particle::sphere(i, 40e-6, 2000.0, x, u)).collect();
+        assert!(starts.len() > 300);
+        let mesh = domain(&snapshot);
+        let behaviors = vec![Behavior::Trap; mesh.walls().len()];
+        let settings = Settings { until: 1.5, max_steps: 500, ..settings() };
+        let d = floating(Drag::SchillerNaumann);
+        let tracker = Tracker { domain: &mesh, dynamics: &d, behaviors: &behaviors, settings };
+        let mut log = Log::default();
+        tracker.run(&mut starts.iter().copied(), &mut log).unwrap();
+        assert_eq!(log.ends.len(), starts.len());
+        let mut worst = 0.0f64;
+        for end in &log.ends {
+            assert!(end.fate != ParticleFate::Stuck && end.steps < 500, "{bow} {u:?}: {end:?}");
+            let straight = crate::vector::add(end.particle.position, crate::vector::scale(u, end.time));
+            let [x, y, z] = sub(end.position, straight);
+            worst = worst.max(norm([x - 2.0 * (x / 2.0).round(), y, z]));
+        }
+        // gaps are up to 0.1 wide, and gone over by twice as much, once or more
+        assert!(worst < 0.25 * f64::abs(bow), "{bow} {u:?}: {worst}");
+    }
+}
+
 /// A box that goes on from right to left, with `place` for its points, against four of it in a row.
 fn goes_on_as_the_long_one(
     kind: impl Fn(usize, f64) -> PatchKind,
