@@ -22,7 +22,7 @@ pub mod vtk;
 pub use error::Error;
 pub use field::{Field, Fields};
 pub use mesh::{Carry, Mesh, Patch, PatchKind, Polygons};
-pub use names::Names;
+pub use names::{Names, Wanted};
 
 /// A result at one time.
 #[derive(Clone, Debug)]

@@ -28,7 +28,7 @@ mod stitch;
 use std::path::Path;
 
 pub use crate::Names;
-use crate::{Error, Fields, Mesh, Snapshot, check};
+use crate::{Error, Fields, Mesh, Snapshot, Wanted, check};
 use fields::Asked;
 use layout::{Layout, Store, Time};
 
@@ -148,6 +148,16 @@ fn regions(case: &Path) -> Vec<String> {
     names
 }
 
+/// Usual names of the scalars, in the order of [`Names`], and exponents of kg, m, s, K that they may have.
+const SCALARS: [(&str, &[[i8; 4]]); 6] = [
+    ("k", &[[0, 2, -2, 0]]),
+    ("epsilon", &[[0, 2, -3, 0]]),
+    ("omega", &[[0, 0, -1, 0]]),
+    ("rho", &[[1, -3, 0, 0]]),
+    ("T", &[[0, 0, 0, 1]]),
+    ("p", &[[1, -1, -2, 0], [0, 2, -2, 0]]),
+];
+
 fn all_fields(
     layout: &Layout,
     time: &str,
@@ -160,31 +170,24 @@ fn all_fields(
     let there = fields.others.clone();
     let mut used = Vec::new();
     let root = layout.store.first().join(time);
-    let mut name = |asked: &Option<String>, usual: &str| {
-        let name = asked.as_deref().unwrap_or(usual);
-        match (files::is_there(&root.join(name)), asked) {
-            (true, _) => {
-                used.push(name.to_owned());
-                Ok(Some(name.to_owned()))
-            }
-            (false, None) => Ok(None),
-            (false, Some(_)) => {
-                Err(Error::Missing { path: root.clone(), kind: "field", name: name.into(), there: there.clone() })
-            }
+    let name = |wanted: Wanted<'_>, usual: &str| {
+        let (name, asked) = match wanted {
+            Wanted::None => return Ok(None),
+            Wanted::Named(name) => (name, true),
+            Wanted::Usual => (usual, false),
+        };
+        if files::is_there(&root.join(name)) {
+            return Ok(Some(name.to_owned()));
         }
+        let missing = || Error::Missing { path: root.clone(), kind: "field", name: name.into(), there: there.clone() };
+        if asked { Err(missing()) } else { Ok(None) }
     };
-    let velocity = name(&names.velocity, "U")?;
-    let scalars: [(Option<String>, &[[i8; 4]]); 6] = [
-        (name(&names.k, "k")?, &[[0, 2, -2, 0]]),
-        (name(&names.epsilon, "epsilon")?, &[[0, 2, -3, 0]]),
-        (name(&names.omega, "omega")?, &[[0, 0, -1, 0]]),
-        (name(&names.density, "rho")?, &[[1, -3, 0, 0]]),
-        (name(&names.temperature, "T")?, &[[0, 0, 0, 1]]),
-        (name(&names.pressure, "p")?, &[[1, -1, -2, 0], [0, 2, -2, 0]]),
-    ];
-    if let Some(name) = velocity {
-        let asked = Asked { file: &format!("{time}/{name}"), name: &name, dimensions: &[[0, 1, -1, 0]] };
+    let [velocity, scalars @ ..] = names.all();
+    if let Some(name) = name(velocity, "U")? {
+        let (file, kind) = (format!("{time}/{name}"), &[[0, 1, -1, 0]]);
+        let asked = Asked { file: &file, name: &name, dimensions: kind, may_differ: false };
         fields.velocity = fields::read(layout, &asked, mesh, joints, notes)?.map(Into::into);
+        used.push(name);
     }
     let places = [
         &mut fields.k,
@@ -194,14 +197,17 @@ fn all_fields(
         &mut fields.temperature,
         &mut fields.pressure,
     ];
-    for (i, (place, (name, dimensions))) in places.into_iter().zip(scalars).enumerate() {
-        let Some(name) = name else { continue };
-        let asked = Asked { file: &format!("{time}/{name}"), name: &name, dimensions };
-        let found = fields::read::<[f64; 1]>(layout, &asked, mesh, joints, notes)?;
-        if i == 5 && found.as_ref().is_some_and(|f| f.dimensions == Some(1)) {
+    for ((place, wanted), (usual, dimensions)) in places.into_iter().zip(scalars).zip(SCALARS) {
+        let Some(name) = name(wanted, usual)? else { continue };
+        // a passive scalar is called T as well
+        let may_differ = wanted == Wanted::Usual && matches!(usual, "rho" | "T");
+        let asked = Asked { file: &format!("{time}/{name}"), name: &name, dimensions, may_differ };
+        let Some(found) = fields::read::<[f64; 1]>(layout, &asked, mesh, joints, notes)? else { continue };
+        if usual == "p" && found.dimensions == Some(1) {
             notes.push(format!("pressure ({name}) is over the density, m²/s²"));
         }
-        *place = found.map(Into::into);
+        *place = Some(found.into());
+        used.push(name);
     }
     fields.others.retain(|name| !used.contains(name));
     Ok(fields)

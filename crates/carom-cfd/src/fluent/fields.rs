@@ -2,7 +2,7 @@
 
 use super::hdf::Hdf;
 use super::mesh::Part;
-use crate::{Error, Field, Fields, Names};
+use crate::{Error, Field, Fields, Names, Wanted};
 
 /// The first phase, or the mixture of several.
 const PHASE: &str = "results/1/phase-1";
@@ -23,9 +23,10 @@ pub(super) fn read(file: &Hdf, part: &Part, names: &Names, notes: &mut Vec<Strin
     for (q, (found, name)) in found.iter_mut().zip(names.all()).enumerate() {
         let usual = || there.iter().any(|n| n == USUAL[q]).then(|| USUAL[q].to_owned());
         *found = match name {
-            Some(name) if there.iter().any(|n| n == name) => Some(name.to_owned()),
-            Some(name) => return Err(missing(file, name, there)),
-            None => usual(),
+            Wanted::Named(name) if there.iter().any(|n| n == name) => Some(name.to_owned()),
+            Wanted::Named(name) => return Err(missing(file, name, there)),
+            Wanted::Usual => usual(),
+            Wanted::None => None,
         };
     }
     let Some(u) = &found[0] else { return Err(missing(file, "SV_U", there)) };

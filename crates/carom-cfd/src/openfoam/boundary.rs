@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::cyclic::{self, Told};
-use super::dictionary::{Dict, Text, Value, expand, plain};
+use super::dictionary::{Dict, Value, expand, plain};
 use super::error::{Fault, fault};
 use super::files::Contents;
 use super::list::Item;
@@ -134,7 +134,7 @@ fn words(list: &[u8]) -> Vec<String> {
     let mut scan = Scan::new(inside);
     let mut found = Vec::new();
     while !matches!(scan.peek(), None | Some(b')')) {
-        let word = if scan.peek() == Some(b'"') { scan.quoted().unwrap_or_default() } else { scan.word() };
+        let word = if scan.peek() == Some(b'"') { scan.quoted().unwrap_or_default() } else { scan.name() };
         if word.is_empty() {
             break;
         }
@@ -186,12 +186,4 @@ pub(super) fn patches(raw: &[Raw], mesh: &Mesh, case: &std::path::Path) -> Resul
             Ok(Patch { name: p.name.clone(), groups: p.groups.clone(), kind, faces: p.faces.clone() })
         })
         .collect()
-}
-
-/// The text of an entry, for messages.
-pub(super) fn entry_text(dict: &Dict<'_>, key: &str) -> Option<String> {
-    match dict.find(key.as_bytes(), &[dict])? {
-        Value::Text(Text { bytes, .. }) => Some(plain(bytes).into_owned()),
-        Value::Dict(_) => None,
-    }
 }

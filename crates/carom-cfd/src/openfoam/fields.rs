@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::path::Path;
 
-use super::boundary::{Raw, entry_text};
+use super::boundary::Raw;
 use super::dictionary::{Dict, Scopes, Text, Value, expand, plain};
 use super::error::{Fault, fault};
 use super::files::Contents;
@@ -53,6 +53,8 @@ pub(super) struct Asked<'a> {
     pub(super) name: &'a str,
     /// Exponents of kg, m, s, K that it may have.
     pub(super) dimensions: &'a [[i8; 4]],
+    /// Whether one of other dimensions is another quantity, which is told and left alone.
+    pub(super) may_differ: bool,
 }
 
 /// A field, and which of the dimensions it has.
@@ -83,13 +85,14 @@ pub(super) fn read<T: Quantity>(
 ) -> Result<Option<Found<T>>, Error> {
     let mut field =
         Found { cells: Vec::new(), boundary: vec![T::NAN; mesh.faces.len() - mesh.inner_faces()], dimensions: None };
-    let mut parts = 0;
+    let (mut parts, mut differs) = (0, None);
     let there = layout.each(asked.file, |i, contents| {
         parts = i + 1;
         let Some(joint) = joints.get(i) else {
             return Err(Error::file(contents.path, "is of more processors than the mesh"));
         };
-        one_part(contents, asked, mesh, joint, &mut field, notes)
+        differs = differs.take().or(one_part(contents, asked, mesh, joint, &mut field, notes)?);
+        Ok(())
     })?;
     if !there {
         return Ok(None);
@@ -98,9 +101,14 @@ pub(super) fn read<T: Quantity>(
         let what = format!("is of {parts} processors, and the mesh of {}", joints.len());
         return Err(Error::file(Path::new(asked.file), what));
     }
+    if let Some(what) = differs {
+        notes.push(format!("{what}: it is another quantity, and left out"));
+        return Ok(None);
+    }
     Ok(Some(field))
 }
 
+/// Reads a part; or says how its dimensions differ, where they may.
 fn one_part<T: Quantity>(
     contents: &Contents<'_>,
     asked: &Asked<'_>,
@@ -108,14 +116,17 @@ fn one_part<T: Quantity>(
     joint: &Joint,
     field: &mut Found<T>,
     notes: &mut Vec<String>,
-) -> Result<(), Error> {
+) -> Result<Option<String>, Error> {
     if contents.class != T::CLASS {
         let what = format!("is a {} where a {} was expected", contents.class, T::CLASS);
         return Err(Error::file(contents.path, what));
     }
     let dict = contents.read(|scan| Dict::read(scan, contents.format))?;
     let fail = |fault| contents.error(fault);
-    field.dimensions = dimensions(&dict, asked).map_err(fail)?;
+    field.dimensions = match dimensions(&dict, asked) {
+        Err(differs) if asked.may_differ => return Ok(Some(differs.what)),
+        known => known.map_err(fail)?,
+    };
     let internal = match dict.find(b"internalField", &[&dict]) {
         Some(Value::Text(text)) => *text,
         _ => return Err(fail(fault(contents.start, "no internalField"))),
@@ -159,7 +170,7 @@ fn one_part<T: Quantity>(
         }
         set(patch, &given.what, mesh, joint, field);
     }
-    Ok(())
+    Ok(None)
 }
 
 /// What an entry gives.
@@ -284,7 +295,8 @@ fn values<'a, T: Quantity>(
 
 /// Which of the dimensions asked for a field has; none where it does not say so in numbers.
 fn dimensions(dict: &Dict<'_>, asked: &Asked<'_>) -> Result<Option<usize>, Fault> {
-    let Some(text) = entry_text(dict, "dimensions") else { return Ok(None) };
+    let Some(Value::Text(Text { bytes, at })) = dict.find(b"dimensions", &[dict]) else { return Ok(None) };
+    let text = plain(bytes);
     let mut scan = Scan::new(text.as_bytes());
     let mut found = Vec::new();
     if scan.take(b'[') {
@@ -301,7 +313,7 @@ fn dimensions(dict: &Dict<'_>, asked: &Asked<'_>) -> Result<Option<usize>, Fault
         None => {
             let due = asked.dimensions.iter().map(|d| format!("[{} {} {} {} 0 0 0]", d[0], d[1], d[2], d[3]));
             let due = due.collect::<Vec<_>>().join(" or ");
-            Err(fault(0, format!("{} has the dimensions {text}, and not {due}", asked.name)))
+            Err(fault(*at, format!("{} has the dimensions {text}, and not {due}", asked.name)))
         }
     }
 }

@@ -94,17 +94,21 @@ impl<'a> Scan<'a> {
         &rest[..end]
     }
 
-    /// A word that may hold brackets in pairs, as `div(phi,U)` does: the name of an entry.
+    /// A word that may hold brackets in pairs, as `div(phi,U)` and `blade[1]` do: the name of an entry, a patch or a group.
     pub(super) fn name(&mut self) -> &'a [u8] {
         self.space();
         let rest = self.rest();
         let mut depth = 0_usize;
-        let end = rest.iter().position(|b| match b {
+        let end = rest.iter().enumerate().position(|(i, b)| match b {
             b'(' => {
                 depth += 1;
                 false
             }
-            b')' if depth > 0 => {
+            b'[' if i > 0 => {
+                depth += 1;
+                false
+            }
+            b')' | b']' if depth > 0 => {
                 depth -= 1;
                 false
             }

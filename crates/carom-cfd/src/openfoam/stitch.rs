@@ -157,7 +157,10 @@ fn by_faces(parts: &[Part]) -> Result<Vec<Numbers>, String> {
 
 /// The other side of a patch between processors, and whose it is.
 fn opposite<'p>(parts: &'p [Part], a: usize, patch: &Raw, through: Option<&str>) -> Result<(usize, &'p Raw), String> {
-    let lost = || format!("processor {a}: patch `{}` has no other side of as many faces", patch.name);
+    let lost = || match parts.len() {
+        1 => format!("patch `{}` joins it to another processor's part: the case is the folder above", patch.name),
+        _ => format!("processor {a}: patch `{}` has no other side of as many faces", patch.name),
+    };
     let link = patch.link.as_ref().filter(|l| l.own == a).ok_or_else(lost)?;
     let fits = |p: &&Raw| {
         p.faces.len() == patch.faces.len()

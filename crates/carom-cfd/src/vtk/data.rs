@@ -2,7 +2,7 @@
 
 use super::cells::is_solid;
 use super::{Options, grid::Grid};
-use crate::Error;
+use crate::{Error, Wanted};
 use carom_table::quoted;
 use std::path::Path;
 
@@ -164,11 +164,15 @@ fn find(
         Error::Missing { path: path.to_owned(), kind: "field", name: name.to_owned(), there }
     };
     let names = options.names.all();
-    if let Some(name) = names[quantity] {
-        let found = place(&|n| n == name);
-        return if found.is_none() && solid { Err(missing(name)) } else { Ok(found) };
+    match names[quantity] {
+        Wanted::Named(name) => {
+            let found = place(&|n| n == name);
+            return if found.is_none() && solid { Err(missing(name)) } else { Ok(found) };
+        }
+        Wanted::None => return Ok(None),
+        Wanted::Usual => {}
     }
-    let taken = |name: &str| names.contains(&Some(name));
+    let taken = |name: &str| names.contains(&Wanted::Named(name));
     let found = aliases.iter().find_map(|alias| place(&|n| plain(n) == *alias && !taken(n)));
     if found.is_none() && solid && quantity == 0 { Err(missing("U")) } else { Ok(found) }
 }

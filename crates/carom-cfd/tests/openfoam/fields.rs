@@ -106,6 +106,36 @@ fn fields_of_other_names_and_times() {
 }
 
 #[test]
+fn a_passive_scalar_is_no_temperature() {
+    let (_folder, case) = copied("block");
+    let scalar = |dimensions: &str| {
+        let text = format!(
+            "FoamFile {{ format ascii; class volScalarField; }}\ndimensions {dimensions};\ninternalField uniform 0.5;\n\
+             boundaryField {{ \".*\" {{ type calculated; value $internalField; }} }}"
+        );
+        fs::write(case.join("2/T"), text).unwrap();
+    };
+    scalar("[0 0 0 0 0 0 0]");
+    let s = latest(&case);
+    assert!(s.fields.temperature.is_none() && s.fields.others.iter().any(|n| n == "T"), "{:?}", s.fields.others);
+    let note = "T has the dimensions [0 0 0 0 0 0 0], and not [0 0 0 1 0 0 0]: it is another quantity, and left out";
+    assert!(s.notes.iter().any(|n| n == note), "{:?}", s.notes);
+    let read_as = |name: &str| {
+        let names = Names { temperature: Some(name.into()), ..Names::default() };
+        read(&case, &Options { names, ..Options::default() })
+    };
+    // one that is named is meant
+    let e = message(read_as("T"), &case);
+    assert_eq!(e, "CASE/2/T:2: T has the dimensions [0 0 0 0 0 0 0], and not [0 0 0 1 0 0 0]");
+    // the dimensions of a temperature, with the values of none
+    scalar("[0 0 0 1 0 0 0]");
+    assert!(latest(&case).fields.temperature.is_some());
+    let s = read_as("none").unwrap();
+    assert!(s.fields.temperature.is_none() && s.fields.velocity.is_some());
+    assert!(s.fields.others.iter().any(|n| n == "T") && s.notes.iter().all(|n| !n.starts_with('T')));
+}
+
+#[test]
 fn a_compressible_result() {
     let (_folder, case) = copied("block");
     let scalar = |name: &str, dimensions: &str, value: f64| {
@@ -124,10 +154,6 @@ fn a_compressible_result() {
     assert_eq!(values(s.fields.temperature.as_ref()).0[3], [300.0]);
     assert_eq!(values(s.fields.omega.as_ref()).1[3], [7.0]);
     assert_eq!(s.notes, ["of 2 times from 1 to 2, 2 is used, frozen"]);
-    scalar("T", "[0 1 0 0 0 0 0]", 300.0);
-    assert!(
-        refusal(&case).ends_with("T has the dimensions [0 1 0 0 0 0 0], and not [0 0 0 1 0 0 0]"),
-        "{}",
-        refusal(&case)
-    );
+    scalar("k", "[0 1 0 0 0 0 0]", 0.1);
+    assert_eq!(refusal(&case), "CASE/2/k:1: k has the dimensions [0 1 0 0 0 0 0], and not [0 2 -2 0 0 0 0]");
 }

@@ -180,6 +180,8 @@ fn the_later_of_whole_and_decomposed_is_read_and_the_whole_of_equals() {
 fn a_processor_that_is_missing_is_named() {
     let folder = tempfile::tempdir().unwrap();
     decomposed("block-collated", folder.path(), "");
+    let part = refusal(&folder.path().join("processor1"));
+    assert!(part.contains("joins it to another processor's part: the case is the folder above"), "{part}");
     fs::remove_file(folder.path().join("processor2/2/k")).unwrap();
     assert_eq!(refusal(folder.path()), "CASE/processor2/2/k: is not there, and other processors have it");
     fs::remove_dir_all(folder.path().join("processor1")).unwrap();

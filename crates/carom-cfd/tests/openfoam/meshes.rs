@@ -55,6 +55,21 @@ fn patches_of_every_kind() {
 }
 
 #[test]
+fn names_may_hold_brackets_in_pairs() {
+    let (_folder, case) = copied("block");
+    edit(&case.join("constant/polyMesh/boundary"), "    lower\n", "    lower[1](a)\n");
+    edit(&case.join("constant/polyMesh/boundary"), "2(wall solid)", "2(wall solid[2])");
+    for field in ["U", "p", "k", "epsilon"] {
+        edit(&case.join("2").join(field), "    lower\n", "    lower[1](a)\n");
+    }
+    let mesh = latest(&case).mesh;
+    assert_eq!(
+        (mesh.patches[2].name.as_str(), &mesh.patches[2].groups[..]),
+        ("lower[1](a)", &["wall".to_owned(), "solid[2]".into()][..])
+    );
+}
+
+#[test]
 fn a_rotation_is_the_same_told_in_every_way_and_not_told() {
     // 60° about (1, 0, z): the ends of its arcs have eleven digits
     let exact = [[0.5, -(0.75_f64.sqrt()), 0.0], [0.75_f64.sqrt(), 0.5, 0.0], [0.0, 0.0, 1.0]];

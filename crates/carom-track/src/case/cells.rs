@@ -5,6 +5,7 @@ use super::files::Files;
 use super::text::{FieldsText, FlowText, TimeName, WallText};
 use super::wall::SYMMETRY;
 use crate::flow::Cells;
+use crate::flow::cells::CellsError;
 use crate::injection::Source;
 use crate::vector::{cross, dot, norm, sub};
 use carom::LawError;
@@ -66,7 +67,14 @@ pub(super) fn read(
     notes.extend(snapshot.notes.iter().map(|note| format!("{}: {note}", at.value)));
     give_kinds(&mut snapshot, walls)?;
     files.take_in(&snapshot);
-    let cells = Cells::new(&snapshot).map_err(|e| wrong(at, format!("{}: {e}", at.value)))?;
+    let cells = Cells::new(&snapshot).map_err(|e| {
+        let error = wrong(at, format!("{}: {e}", at.value));
+        match e {
+            CellsError::NoVelocity => error.help(velocity_is_named(&snapshot.fields.others)),
+            CellsError::Density { .. } => error.help("fields = { density = \"none\" } leaves it out"),
+            _ => error,
+        }
+    })?;
     notes.push(described(&at.value, &cells));
     if text.value.kind.value == "vtk" {
         notes.extend(cells.gaps().map(|note| format!("{}: {note}", at.value)));
@@ -78,6 +86,13 @@ fn names(text: Option<&At<FieldsText>>) -> Names {
     let FieldsText { velocity, k, epsilon, omega, density, temperature, pressure } =
         text.map(|t| t.value.clone()).unwrap_or_default();
     Names { velocity, k, epsilon, omega, density, temperature, pressure }
+}
+
+fn velocity_is_named(others: &[String]) -> String {
+    match others {
+        [] => "there are no fields: is it the time that was meant?".to_owned(),
+        _ => format!("fields = {{ velocity = \"NAME\" }} names it; there are {}", others.join(", ")),
+    }
 }
 
 fn described(name: &str, cells: &Cells) -> String {

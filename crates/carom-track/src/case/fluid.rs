@@ -44,17 +44,19 @@ pub(super) fn in_its_gas(
     text: Option<&At<FlowText>>,
     notes: &mut Vec<String>,
 ) -> Result<Flow, LawError> {
-    let range = match &flow {
-        Flow::Table(table) => table.temperatures(),
-        Flow::Cells(cells) => cells.temperatures(),
-        _ => None,
+    let (range, otherwise) = match &flow {
+        Flow::Table(table) => (table.temperatures(), "if they are not in K, name their unit, as in \"T [degC]\""),
+        Flow::Cells(cells) => {
+            (cells.temperatures(), "if they are no temperatures, fields = { temperature = \"none\" } leaves them out")
+        }
+        _ => return Ok(flow),
     };
     let Some([low, high]) = range else { return Ok(flow) };
     let Some(gas) = gas else {
         let Flow::Table(table) = flow else {
             let kind = text.and_then(|t| t.value.kind.span.clone());
             return Err(LawError::new("the result has a temperature, and [fluid] is a liquid")
-                .help("the properties of a liquid are those of [fluid] everywhere: leave the field out of the time folder")
+                .help("the properties of a liquid are those of [fluid] everywhere: fields = { temperature = \"none\" } leaves the field out")
                 .at(kind));
         };
         notes.push(
@@ -65,11 +67,10 @@ pub(super) fn in_its_gas(
     let [least, most] = gas.range();
     if low < least || high > most {
         let message = format!("the flow's temperatures are from {low:.2} K to {high:.2} K");
-        let help = format!(
-            "the viscosity of {} is known from {least} K to {most} K; if they are not in K, name their unit, as in \"T [degC]\"",
-            gas.name()
-        );
-        let span = text.and_then(|t| t.value.file.as_ref()).and_then(|f| f.span.clone());
+        let help = format!("the viscosity of {} is known from {least} K to {most} K; {otherwise}", gas.name());
+        let value = text.map(|t| &t.value);
+        let named = value.and_then(|t| t.file.as_ref().or(t.case.as_ref()));
+        let span = named.and_then(|f| f.span.clone());
         return Err(LawError::new(message).help(help).at(span));
     }
     Ok(flow)

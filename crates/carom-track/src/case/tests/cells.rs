@@ -83,6 +83,54 @@ fn what_the_mesh_does_not_have_is_refused_with_what_it_has() {
 }
 
 #[test]
+fn fields_that_are_not_meant_are_left_out() {
+    refused(
+        "case = \"block\"",
+        "case = \"block\"\nfields = { velocity = \"none\" }",
+        &["no velocity", "fields = { velocity = \"NAME\" }", "C, U, V"],
+    );
+    let folder = tempfile::tempdir().unwrap();
+    let block = at().with_file_name("block");
+    for part in ["constant/polyMesh", "2"] {
+        std::fs::create_dir_all(folder.path().join("block").join(part)).unwrap();
+        for file in std::fs::read_dir(block.join(part)).unwrap().map(Result::unwrap) {
+            std::fs::copy(file.path(), folder.path().join("block").join(part).join(file.file_name())).unwrap();
+        }
+    }
+    let case = |text: &str| Case::from_toml(text, &folder.path().join("case.toml"), Library::builtin());
+    let with = |name: &str, dimensions: &str, value: f64| {
+        let head = "FoamFile { format ascii; class volScalarField; } dimensions";
+        let patches = "boundaryField { \".*\" { type calculated; value $internalField; } }";
+        let text = format!("{head} {dimensions}; internalField uniform {value}; {patches}");
+        std::fs::write(folder.path().join("block/2").join(name), text).unwrap();
+    };
+    let fails = |text: &str, words: &[&str]| {
+        let error = case(text).unwrap_err();
+        let said = error.to_string() + &error.remedy().unwrap_or_default();
+        assert!(words.iter().all(|word| said.contains(word)), "{words:?}: {said}");
+    };
+    // a scalar between 0 and 1 with the dimensions of a temperature
+    with("T", "[0 0 0 1 0 0 0]", 0.5);
+    fails(CASE, &["temperatures are from 0.50 K", "fields = { temperature = \"none\" }"]);
+    let left_out = CASE.replacen("case = \"block\"", "case = \"block\"\nfields = { temperature = \"none\" }", 1);
+    case(&left_out).unwrap();
+    let liquid = "[fluid]\nliquid = true\ndensity = 998\nviscosity = 1e-3\n";
+    fails(&format!("{liquid}{CASE}"), &["[fluid] is a liquid", "fields = { temperature = \"none\" }"]);
+    case(&format!("{liquid}{left_out}")).unwrap();
+    with("rho", "[1 -3 0 0 0 0 0]", 0.0);
+    with("T", "[0 0 0 1 0 0 0]", 300.0);
+    fails(CASE, &["density goes down to 0", "fields = { density = \"none\" }"]);
+    // with other dimensions it is another quantity, and a note says so
+    with("rho", "[0 0 0 0 0 0 0]", 0.0);
+    let read = case(CASE).unwrap();
+    assert!(
+        read.notes.iter().any(|n| n.contains("rho has the dimensions") && n.contains("left out")),
+        "{:?}",
+        read.notes
+    );
+}
+
+#[test]
 fn names_and_mirrors() {
     let named = CASE.replacen("patch = \"lower\"", "name = \"floor\"\npatch = \"lower\"", 1);
     assert_eq!(read(&named).unwrap().domain.walls()[2].name, "floor");
