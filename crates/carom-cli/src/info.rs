@@ -50,7 +50,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         return Err(Failure::input("--time is of a case of OpenFOAM, which is a folder"));
     } else if is_mesh_of_vtk(case) {
         let mut snapshot = vtk::read(case, &vtk::Options::default()).map_err(failure)?;
-        let gaps = carom_track::flow::Cells::new(&snapshot).ok().and_then(|cells| cells.gaps());
+        let gaps = carom_track::flow::Cells::new(&snapshot).ok().and_then(|cells| cells.boundary_inside());
         snapshot.notes.extend(gaps);
         Info::new("VTK", case, Vec::new(), &snapshot)
     } else if case.to_string_lossy().to_ascii_lowercase().ends_with(".cas.h5") {

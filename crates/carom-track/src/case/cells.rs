@@ -77,7 +77,7 @@ pub(super) fn read(
     })?;
     notes.push(described(&at.value, &cells));
     if text.value.kind.value == "vtk" {
-        notes.extend(cells.gaps().map(|note| format!("{}: {note}", at.value)));
+        notes.extend(cells.boundary_inside().map(|note| format!("{}: {note}", at.value)));
     }
     Ok(Arc::new(cells))
 }

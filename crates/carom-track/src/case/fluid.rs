@@ -127,9 +127,6 @@ const SPEED_RATIO: f64 = 0.22;
 const CONVENTIONS: f64 = 0.2;
 /// Above this pressure a gas may be off the ideal one by more than 1 % (5 % for carbon dioxide), Pa.
 const NEAR_IDEAL: f64 = 1e6;
-/// So many starts of each injection are looked at.
-const SAMPLE: u64 = 100;
-
 /// What to say of the drag of a case's spheres in its fluid.
 pub(super) fn notes(
     text: Option<&At<FluidText>>,
@@ -164,10 +161,8 @@ pub(super) fn notes(
         }
     }
     for injected in injections {
-        let starts = (0..injected.injection.count().min(SAMPLE))
-            .map(|i| injected.injection.particle(i, |_, x| flow.velocity(x)));
         let (mut smallest, mut fastest) = (f64::INFINITY, 0.0f64);
-        for start in starts {
+        for start in injected.sample(|x| flow.velocity(x)) {
             smallest = smallest.min(start.diameter);
             fastest = fastest.max(norm(sub(start.velocity, flow.velocity(start.position))));
         }

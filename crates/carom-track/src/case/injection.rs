@@ -10,6 +10,7 @@ use crate::force::Slip;
 use crate::injection::{
     Amount, By, Diameter, Injection, InjectionError, Plan, Sizes, Source, Start, Window, geometric_diameter,
 };
+use crate::vector::Vec3;
 use carom::LawError;
 use carom::material::{Library, MaterialRef};
 use carom::spec::At;
@@ -28,6 +29,16 @@ pub struct Injected {
     pub largest: f64,
     /// Where its position stands in the case file.
     pub(super) place: Option<Range<usize>>,
+}
+
+/// So many starts of an injection are looked at for what is doubtful of all.
+const SAMPLE: u64 = 100;
+
+impl Injected {
+    /// Its first spheres, in a flow of that velocity, m/s.
+    pub(super) fn sample(&self, velocity: impl Fn(Vec3) -> Vec3) -> impl Iterator<Item = crate::injection::Injected> {
+        (0..self.injection.count().min(SAMPLE)).map(move |i| self.injection.particle(i, |_, x| velocity(x)))
+    }
 }
 
 /// Reads one injection.

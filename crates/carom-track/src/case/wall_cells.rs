@@ -12,8 +12,6 @@ use crate::vector::{norm, sub};
 
 /// Cells of more radii than this are worth a word: in a bend at Stk = 0.28 cells of 11 radii keep a quarter of the deposit away, of 2 none.
 const WIDE: f64 = 4.0;
-/// So many starts of each injection are looked at.
-const SAMPLE: u64 = 100;
 
 /// The wall with the widest cells, as seen by the smallest spheres that do not fly through everything.
 pub(super) fn note(
@@ -24,7 +22,11 @@ pub(super) fn note(
     injections: &[Injected],
 ) -> Option<String> {
     let Flow::Cells(cells) = flow else { return None };
-    let diameter = injections.iter().filter_map(|i| carried(i, cells, dynamics)).reduce(f64::min)?;
+    let bounds = cells.bounds();
+    let (size, speed) = (norm(sub(bounds.max, bounds.min)), cells.fastest([bounds.min, bounds.max]));
+    let carried = |sphere: &Sphere| dynamics.relaxation_time(sphere) * speed < size;
+    let medians = injections.iter().filter_map(|i| median(i, cells)).filter(carried);
+    let diameter = medians.map(|sphere| sphere.diameter).reduce(f64::min)?;
     let solid = walls.iter().zip(behaviors).filter(|(wall, behavior)| {
         wall.contact_at == ContactAt::Surface && !matches!(behavior, Behavior::Escape | Behavior::WallJet)
     });
@@ -53,15 +55,10 @@ fn height(cells: &Cells, wall: &Wall) -> Option<f64> {
     cells.height_at(cells.patches().iter().find(|p| p.name == *name)?)
 }
 
-/// Median diameter of an injection, m, unless its spheres fly through the whole mesh before the flow stops them.
-fn carried(injected: &Injected, cells: &Cells, dynamics: &Dynamics) -> Option<f64> {
-    let count = injected.injection.count().min(SAMPLE);
-    let mut starts: Vec<_> = (0..count).map(|i| injected.injection.particle(i, |_, x| cells.velocity(x))).collect();
-    starts.sort_by(|a, b| a.diameter.total_cmp(&b.diameter));
-    let median = starts.get(starts.len() / 2)?;
-    let bounds = cells.bounds();
-    let speed = cells.fastest([bounds.min, bounds.max]);
-    let sphere = Sphere { diameter: median.diameter, density: median.density };
-    let stops_within = dynamics.relaxation_time(&sphere) * speed;
-    (stops_within < norm(sub(bounds.max, bounds.min))).then_some(median.diameter)
+/// The sphere of an injection's median diameter.
+fn median(injected: &Injected, cells: &Cells) -> Option<Sphere> {
+    let spheres = injected.sample(|x| cells.velocity(x)).map(|p| Sphere { diameter: p.diameter, density: p.density });
+    let mut spheres: Vec<Sphere> = spheres.collect();
+    spheres.sort_by(|a, b| a.diameter.total_cmp(&b.diameter));
+    spheres.get(spheres.len() / 2).copied()
 }

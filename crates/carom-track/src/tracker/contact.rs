@@ -389,9 +389,8 @@ impl<'a, D: Domain> Contact<'a, D> {
         } else {
             step(&[self.time], &start, &first, &[h], control, &acting, &mut out);
         }
-        let speed = [m.v, out.end.v.map(|c| c[0]), first.a.map(|c| h * c[0])].map(norm);
-        let speed = speed.into_iter().fold(0.0, f64::max);
-        let tried = Tried { from: m.x, h, error_squared: out.error_squared[0], speed, drag_rate: first.drag[0] };
+        let velocities = [m.v, out.end.v.map(|c| c[0]), first.a.map(|c| h * c[0])];
+        let tried = Tried { from: m.x, h, error_squared: out.error_squared[0], velocities, drag_rate: first.drag[0] };
         if tried.error_squared > 1.0 && tried.is_rounding(control.tolerance) {
             out.error_squared = [GOOD];
         }

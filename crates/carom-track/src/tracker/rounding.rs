@@ -18,8 +18,8 @@ pub(super) struct Tried {
     pub from: Vec3,
     pub h: f64,
     pub error_squared: f64,
-    /// No less than the speed that the error is relative to, m/s.
-    pub speed: f64,
+    /// Velocities before it, after it, and that its acceleration would add, m/s: no error is relative to more.
+    pub velocities: [Vec3; 3],
     /// Rate at which drag ends an error of the velocity, 1/s.
     pub drag_rate: f64,
 }
@@ -27,7 +27,8 @@ pub(super) struct Tried {
 impl Tried {
     /// Whether its error moves the place by less than this can hold, for as long as it lasts.
     pub fn is_rounding(&self, tolerance: f64) -> bool {
-        let error = self.error_squared.sqrt() * tolerance * self.speed;
+        let speed = self.velocities.map(norm).into_iter().fold(0.0, f64::max);
+        let error = self.error_squared.sqrt() * tolerance * speed;
         error * self.h.max(1.0 / self.drag_rate) < f64::EPSILON * norm(self.from)
     }
 }
@@ -43,10 +44,10 @@ impl<D: Domain> Walk<'_, D> {
         let mut refused = bits(&refused);
         while let Some(l) = take_lowest(&mut refused) {
             let (from, v, _) = motion_of(&crew.motion, l);
-            let (h, kick) = (crew.h[l], crew.h[l] * norm([0, 1, 2].map(|c| crew.rates.a[c][l])));
-            let speed = norm(v).max(norm(motion_of(&crew.step.end, l).1)).max(kick);
+            let h = crew.h[l];
+            let velocities = [v, motion_of(&crew.step.end, l).1, [0, 1, 2].map(|c| h * crew.rates.a[c][l])];
             let (error_squared, drag_rate) = (crew.step.error_squared[l], crew.bodies.drag_rate[l]);
-            if (Tried { from, h, error_squared, speed, drag_rate }).is_rounding(control.tolerance) {
+            if (Tried { from, h, error_squared, velocities, drag_rate }).is_rounding(control.tolerance) {
                 crew.step.error_squared[l] = GOOD;
             }
         }

@@ -45,7 +45,7 @@ impl Ledger {
     pub fn window(&self, size: &Size) -> Option<Window> {
         let left = |v: f64| self.left(v, size);
         let captures = self.captures_at(size);
-        let start = self.slowest(size);
+        let start = slowest(captures);
         // where nothing else takes anything, the adhesion's own capture velocity is the law's
         let alone = !self.is_damped() && self.account(start, size).bulk == 0.0;
         let Some(summit) = self.ends_at(size) else {
@@ -70,11 +70,6 @@ impl Ledger {
         self.terms().filter_map(|t| t.capture_velocity(size)).reduce(f64::max)
     }
 
-    /// The lowest speed at which anything can be left, m/s.
-    fn slowest(&self, size: &Size) -> f64 {
-        self.captures_at(size).filter(|v| *v > 0.0).unwrap_or(SLOWEST)
-    }
-
     /// The speed from which on ever more is lost until nothing is left, m/s, if there is one.
     fn ends_at(&self, size: &Size) -> Option<f64> {
         self.terms().filter_map(|t| t.exhaustion(size)).map(|(speed, _)| speed.min(FASTEST)).reduce(f64::min)
@@ -95,7 +90,7 @@ impl Ledger {
         if (1..=12).any(|n| self.left(faster(n), size) > 0.0) {
             return Validity::NONE;
         }
-        match self.best_speed(self.slowest(size), summit, size) {
+        match self.best_speed(slowest(self.captures_at(size)), summit, size) {
             None => Validity::NO_REBOUND_WINDOW,
             Some(best) if v < best => Validity::NONE,
             Some(_) => self.exhausted_by(v, size),
@@ -121,4 +116,9 @@ fn rising_root(start: f64, left: impl Fn(f64) -> f64) -> Option<f64> {
         }
     }
     Some(sign_change(low, high, left))
+}
+
+/// The lowest speed at which anything can be left beside an adhesion that captures up to some speed, m/s.
+fn slowest(captures: Option<f64>) -> f64 {
+    captures.filter(|v| *v > 0.0).unwrap_or(SLOWEST)
 }

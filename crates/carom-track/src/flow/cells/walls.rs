@@ -37,10 +37,15 @@ impl Cells {
 
     /// Height of the cell before a triangle of the boundary, m.
     pub(super) fn height(&self, tet: u32) -> Option<f64> {
+        self.face(tet).map(|(_, _, height)| height)
+    }
+
+    /// A triangle of the boundary, m, its normal, which points out of its cell, and the cell's height, m.
+    pub(super) fn face(&self, tet: u32) -> Option<(Triangle, Vec3, f64)> {
         let (corners, centre) = self.corners(tet, self.cut.cell(tet));
         let [a, b, c] = corners.map(|p| self.nodes[p].place);
-        let normal = unit(cross(sub(b, a), sub(c, a)))?;
-        Some(2.0 * dot(sub(a, self.nodes[centre].place), normal).abs())
+        let out = unit(cross(sub(b, a), sub(c, a)))?;
+        Some(([a, b, c], out, 2.0 * dot(sub(a, self.nodes[centre].place), out).abs()))
     }
 
     /// A point of a plane case far out on its side; of others as it is.

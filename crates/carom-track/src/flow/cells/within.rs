@@ -2,7 +2,7 @@
 //! To a sphere they are the end of the space.
 
 use super::Cells;
-use crate::vector::{Vec3, add, cross, scale, sub, unit};
+use crate::vector::{Vec3, add, scale};
 use carom_cfd::{Patch, PatchKind};
 use rayon::prelude::*;
 
@@ -11,7 +11,7 @@ const BEHIND: f64 = 0.01;
 
 impl Cells {
     /// What to say of a mesh whose faces were found by what cells share, if some of its boundary lies inside it: `None` for one that hangs together.
-    pub fn gaps(&self) -> Option<String> {
+    pub fn boundary_inside(&self) -> Option<String> {
         let ends = |p: &&Patch| matches!(p.kind, PatchKind::Wall | PatchKind::Plain);
         let found = self.patches.iter().filter(ends).map(|patch| (patch, self.within(patch)));
         let worst: Vec<_> = found.filter(|(_, places)| !places.is_empty()).collect();
@@ -34,12 +34,8 @@ impl Cells {
     /// The middle of a face's first triangle, if another cell is behind it.
     fn other_cell_behind(&self, face: usize) -> Option<Vec3> {
         let tet = 2 * self.cut.first[face];
-        let height = self.height(tet)?;
-        let (corners, _) = self.corners(tet, self.cut.cell(tet));
-        let [a, b, c] = corners.map(|p| self.nodes[p].place);
+        let ([a, b, c], out, height) = self.face(tet)?;
         let middle = scale(add(a, add(b, c)), 1.0 / 3.0);
-        // faces of the boundary point out of their cells
-        let out = unit(cross(sub(b, a), sub(c, a)))?;
         let there = self.find(add(middle, scale(out, BEHIND * height)));
         (!there.is_nowhere() && there.cell != self.cut.cell(tet)).then_some(middle)
     }
