@@ -10,25 +10,29 @@
 //! What a file is, its first bytes tell, not its name.
 //!
 //! **Cells**: tetrahedra, hexahedra, voxels, wedges, pyramids, prisms of five and six sides, and polyhedra in both forms (a stream of faces, and lists since VTK
-//! 9.4). Quadratic, Lagrange and Bézier cells are taken by their corners, which come first in all of them. Cells of points and lines
-//! are of no use and left out. Wherever faces turn, the result's turn out of their cells.
+//! 9.4). Quadratic, Lagrange and Bézier cells are taken by their corners, which come first in all of them. Cells of points, and
+//! of lines among solid ones, are of no use and left out. Wherever faces turn, the result's turn out of their cells.
+//!
+//! Where all cells are polygons of one plane, the result is plane: one layer of cells between two [empty](crate::PatchKind::Empty) sides; or, with [`Options::axis`],
+//! axisymmetric: a [wedge](crate::PatchKind::Wedge) of 5°. Lines are polygons of the boundary then.
 //!
 //! **The boundary**: a block's polygons lie on the outer faces whose corners have exactly the same coordinates, and the patch is called as the block.
 //! Polygons beside the solid cells of a grid do the same; [`Options::patches`] names the cell array whose values are the patches'
-//! names. All other outer faces are one patch, `boundary`. VTK knows no kinds of patches: all are [`PatchKind::Plain`](crate::PatchKind::Plain).
+//! names. All other outer faces are one patch, `boundary`. VTK knows no kinds of patches: all others are [`PatchKind::Plain`](crate::PatchKind::Plain).
 //!
 //! **Fields**: of points, or else of cells. Velocity by the names `U`, `velocity`, `Velocity`, or as [`Options::names`] says; then `k`, `epsilon`, `omega`, `rho` or
 //! `density`, `T` or `temperature`, `p` or `pressure` and what programs call them. On the boundary a field of cells has the values of the blocks, or else the cells'.
 //!
 //! **Refused**, with the place: faces of three cells, cells on the same side of a common face, open cells, points that are no places, NaN and infinity in a field that is used where solid cells have it, cells and
 //! points that are hidden or not valid. Copies of other pieces' cells (`vtkGhostType`) are left out. Not read: LZMA, strips of triangles, convex
-//! point sets, structured and hyper-tree grids, files of polygons alone (plane results).
+//! point sets, structured and hyper-tree grids.
 
 mod agree;
 mod assemble;
 mod cells;
 mod data;
 mod files;
+mod flat;
 mod grid;
 mod join;
 pub mod legacy;
@@ -44,7 +48,7 @@ pub use number::{Number, Stored};
 
 use crate::{Error, Names, Snapshot, check};
 use cells::is_solid;
-use files::{Load, needs_solids};
+use files::{Load, need_solids};
 use grid::Grid;
 use patches::Surface;
 use std::collections::HashMap;
@@ -57,6 +61,35 @@ pub struct Options {
     pub names: Names,
     /// The cell array of the polygons beside solid cells, whose values name patches.
     pub patches: Option<String>,
+    /// The axis of a result whose cells are polygons of a plane; none: such a result is plane.
+    pub axis: Option<Axis>,
+}
+
+/// The axis of the coordinates round which an axisymmetric result goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "their names say it")]
+pub enum Axis {
+    X,
+    Y,
+    Z,
+}
+
+impl Axis {
+    /// All, in order.
+    pub const ALL: [Self; 3] = [Self::X, Self::Y, Self::Z];
+
+    /// `x`, `y` or `z`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::X => "x",
+            Self::Y => "y",
+            Self::Z => "z",
+        }
+    }
+
+    fn direction(self) -> [f64; 3] {
+        Self::ALL.map(|axis| f64::from(u8::from(axis == self)))
+    }
 }
 
 /// Reads a file and those that it names.
@@ -80,9 +113,9 @@ pub fn from_bytes(file: Vec<u8>, options: &Options) -> Result<Snapshot, Error> {
 fn snapshot(bytes: Vec<u8>, path: &Path, load: Load, options: &Options) -> Result<Snapshot, Error> {
     let fail = |what: String| Error::file(path, what);
     let mut notes = Vec::new();
-    let found = files::all(&bytes, path, load, options)?;
+    let mut found = files::all(&bytes, path, load, options)?;
     drop(bytes);
-    needs_solids(&found, path)?;
+    let beside_plane = need_solids(&mut found, options, path, &mut notes)?;
     if found.blocks.len() > 1 {
         let names = found.blocks.join(", ");
         notes.push(format!("the blocks {names} are one mesh: they hang together where points coincide exactly"));
@@ -104,8 +137,20 @@ fn snapshot(bytes: Vec<u8>, path: &Path, load: Load, options: &Options) -> Resul
     });
     let mut surfaces: Vec<Surface> = blocks.collect();
     surfaces.extend(beside(&grid, surfaces.is_empty(), path, options, &mut notes)?);
+    let mut kinds = Vec::new();
+    for (name, kind, grid) in &beside_plane {
+        let mut name = (*name).to_owned();
+        while surfaces.iter().any(|s| s.name == name) {
+            name.push('_');
+        }
+        kinds.push((name.clone(), kind));
+        surfaces.push(Surface { name, grid, cells: (0..grid.kinds.len() as u32).collect(), among_cells: true });
+    }
     let boundary = patches::boundary(&grid.points, &sides, &surfaces, &mut notes).map_err(fail)?;
-    let (mesh, kept) = assemble::mesh(&grid, &sides, &boundary);
+    let (mut mesh, kept) = assemble::mesh(&grid, &sides, &boundary);
+    for (name, kind) in kinds {
+        mesh.patches.iter_mut().filter(|p| p.name == name).for_each(|p| p.kind = kind.clone());
+    }
     drop(sides);
     let kept = kept.as_deref();
     let sources =
@@ -146,7 +191,7 @@ fn beside<'a>(
         }
         (Some(array), Some(_)) if flat.is_empty() => {
             let what =
-                format!("no 2-D cells lie beside the solid ones: values of {array} could name patches on such only");
+                format!("no boundary cells lie beside the others: values of {array} could name patches on such only");
             return Err(Error::file(path, what));
         }
         (_, Some(labels)) => {
@@ -157,7 +202,7 @@ fn beside<'a>(
         }
         (_, None) if alone && !flat.is_empty() => {
             notes.push(format!(
-                "{} 2-D cells lie beside the solid ones: patches = \"...\" names the cell array whose values are the patches' names",
+                "{} boundary cells lie beside the others: patches = \"...\" names the cell array whose values are the patches' names",
                 flat.len()
             ));
         }

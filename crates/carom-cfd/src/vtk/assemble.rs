@@ -128,7 +128,7 @@ impl Sources<'_> {
         for patch in &self.mesh.patches {
             let mut on = self.boundary.on[patch.faces.start - inner..patch.faces.end - inner].iter();
             let has = |on: &Option<(u32, u32)>| on.is_some_and(|on| self.given(on, q).is_some());
-            if !on.all(has) {
+            if patch.kind == PatchKind::Plain && !on.all(has) {
                 bare.push(&patch.name);
             }
         }

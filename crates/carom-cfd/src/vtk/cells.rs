@@ -1,5 +1,12 @@
 //! Kinds of cells, by VTK's numbers ([vtkCellType.h](https://vtk.org/doc/nightly/html/vtkCellType_8h.html)), and the faces of solid ones.
 
+/// Two points, and straight from point to point.
+pub(super) const LINE: u8 = 3;
+pub(super) const POLYLINE: u8 = 4;
+/// Any number of corners, and any number of faces.
+pub(super) const POLYGON: u8 = 7;
+pub(super) const POLYHEDRON: u8 = 42;
+
 /// What a cell is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Shape {

@@ -105,7 +105,10 @@ pub(super) fn gather(grid: &mut Grid, arrays: &mut dyn Arrays, path: &Path, opti
     for (q, place) in places.iter().copied().enumerate() {
         let Some((of_cells, i)) = place else { continue };
         used[usize::from(of_cells)][i] = true;
-        let values = arrays.read(of_cells, i).map_err(fail)?;
+        let mut values = arrays.read(of_cells, i).map_err(fail)?;
+        if q == 0 && listed[usize::from(of_cells)][i].components == 2 {
+            values = values.as_chunks::<2>().0.iter().flat_map(|[u, v]| [*u, *v, 0.0]).collect();
+        }
         (if of_cells { &mut grid.data.cells } else { &mut grid.data.points })[q] = Some(values);
     }
     masks(grid, arrays, &listed, &mut used).map_err(fail)?;
@@ -147,11 +150,13 @@ fn find(
     solid: bool,
 ) -> Result<Option<(bool, usize)>, Error> {
     let (_, components, aliases) = QUANTITIES[quantity];
-    // of a surface, only what its faces hold is of use
-    let lists: &[usize] = if solid { &[0, 1] } else { &[1] };
+    // of a surface of solid cells, only what its faces hold is of use
+    let lists: &[usize] = if solid { &[0, 1] } else { &[1, 0] };
     let place = |fits: &dyn Fn(&str) -> bool| {
         lists.iter().find_map(|list| {
-            let i = listed[*list].iter().position(|a| a.components == components && fits(&a.name))?;
+            // of polygons, the velocity may be that in their plane
+            let fits_width = |n: usize| n == components || (quantity == 0 && n == 2 && !solid);
+            let i = listed[*list].iter().position(|a| fits_width(a.components) && fits(&a.name))?;
             Some((*list == 1, i))
         })
     };

@@ -2,8 +2,8 @@
 
 use super::grid::Grid;
 use super::xml::{Form, Node, Parts, child};
-use super::{Options, old, piece};
-use crate::Error;
+use super::{Options, flat, old, piece};
+use crate::{Error, Wanted};
 use memchr::memmem;
 use std::path::{Path, PathBuf};
 
@@ -120,21 +120,47 @@ fn root_type(bytes: &[u8]) -> Option<&str> {
     rest[1..].split(quote).next()
 }
 
-/// Refuses a file without solid cells, and says what it has.
-pub(super) fn needs_solids(found: &Found, path: &Path) -> Result<(), Error> {
+/// Makes the polygons of a plane or axisymmetric result solid, and returns the sides beside its plane; refuses files without cells.
+pub(super) fn need_solids(
+    found: &mut Found,
+    options: &Options,
+    path: &Path,
+    notes: &mut Vec<String>,
+) -> Result<Vec<flat::Side>, Error> {
+    let axis = options.axis;
+    let fail = |what: String| Error::file(path, what);
     if found.solids.iter().any(Grid::has_solids) {
-        return Ok(());
+        return match axis {
+            Some(_) => {
+                Err(fail("its cells are solid: axisymmetric is for results whose cells are polygons".to_owned()))
+            }
+            None => Ok(Vec::new()),
+        };
     }
-    let flat = |g: &Grid| (0..g.kinds.len()).filter(|c| g.polygon(*c).is_some()).count();
-    let count: usize = found.solids.iter().chain(found.surfaces.iter().map(|s| &s.1)).map(flat).sum();
+    let polygons = |g: &Grid| (0..g.kinds.len()).filter(|c| g.polygon(*c).is_some()).count();
+    let count: usize = found.solids.iter().chain(found.surfaces.iter().map(|s| &s.1)).map(polygons).sum();
     let ghosts: usize = found.solids.iter().map(|g| g.data.ghosts).sum();
-    let what = match (count, ghosts) {
-        (0, 0) => "no cells".to_owned(),
-        (0, _) => format!("no cells but {ghosts} copies of another piece's"),
-        _ => format!(
-            "{count} polygons and no solid cells: a plane or axisymmetric result is made solid first (ParaView: Linear or Rotational Extrusion), \
-             or read as OpenFOAM's"
-        ),
-    };
-    Err(Error::file(path, what))
+    match (count, ghosts) {
+        (0, 0) => Err(fail("no cells".to_owned())),
+        (0, _) => Err(fail(format!("no cells but {ghosts} copies of another piece's"))),
+        _ => {
+            all_named(found, options, path)?;
+            flat::solid(found, axis, notes).map_err(|why| fail(format!("{count} polygons and no solid cells: {why}")))
+        }
+    }
+}
+
+/// Refuses polygons without a field that is named; of the sides of a solid, fields are of less matter.
+fn all_named(found: &Found, options: &Options, path: &Path) -> Result<(), Error> {
+    let grids = || found.solids.iter().chain(found.surfaces.iter().map(|s| &s.1)).filter(|g| g.has_polygons());
+    for (q, wanted) in options.names.all().into_iter().enumerate() {
+        let Wanted::Named(name) = wanted else { continue };
+        if grids().all(|g| g.data.points[q].is_none() && g.data.cells[q].is_none()) {
+            let mut there: Vec<String> = grids().flat_map(|g| g.data.others.clone()).collect();
+            there.sort();
+            there.dedup();
+            return Err(Error::Missing { path: path.to_owned(), kind: "field", name: name.to_owned(), there });
+        }
+    }
+    Ok(())
 }

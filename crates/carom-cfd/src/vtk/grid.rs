@@ -70,6 +70,10 @@ impl Grid {
         self.kinds.iter().any(|k| is_solid(*k))
     }
 
+    pub fn has_polygons(&self) -> bool {
+        (0..self.kinds.len()).any(|cell| self.polygon(cell).is_some())
+    }
+
     /// Refuses cells of kinds that are not read, and those that have not as many points as their kind.
     pub fn check(&self) -> Result<(), String> {
         for (cell, kind) in self.kinds.iter().enumerate() {

@@ -58,7 +58,7 @@ pub(super) fn boundary(
         for (s, surface) in surfaces.iter().enumerate() {
             let patch = names.iter().position(|n| *n == surface.name).unwrap_or(names.len()) as u32;
             let tally = places.put(surface, s as u32, patch, points, sides, &outer, &mut on);
-            placed += tally.placed;
+            placed += if surface.among_cells { 0 } else { tally.placed };
             if tally.placed > 0 && patch as usize == names.len() {
                 names.push(surface.name.clone());
             }
@@ -73,7 +73,7 @@ pub(super) fn boundary(
     if rest > 0 {
         let name = if names.iter().any(|n| n == REST) { format!("{REST}-rest") } else { REST.to_owned() };
         if !surfaces.is_empty() {
-            notes.push(format!("{rest} outer faces are in no block and on no 2-D cell: they are patch `{name}`"));
+            notes.push(format!("{rest} outer faces are in no block and on no boundary cell: they are patch `{name}`"));
         }
         names.push(name);
     }
@@ -96,7 +96,7 @@ fn judged(surface: &Surface, tally: &Tally) -> Result<Option<String>, String> {
     let all = placed + taken + lost;
     let name = quoted(&surface.name);
     let count = |n: usize| if n == all { format!("all {all}") } else { format!("{n} of {all}") };
-    let what = if surface.among_cells { "2-D cells of" } else { "faces of block" };
+    let what = if surface.among_cells { "boundary cells of" } else { "faces of block" };
     let at = first_lost.map_or(String::new(), |[x, y, z]| format!("; the first of them begins at ({x}, {y}, {z})"));
     if lost > 0 && (placed == 0 || surface.among_cells) {
         let inside = if surface.among_cells { "lie inside the mesh" } else { "are no outer faces of the mesh" };

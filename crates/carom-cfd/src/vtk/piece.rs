@@ -1,6 +1,7 @@
 //! Grids in VTK XML: unstructured ones, and polygons.
 
 use super::Options;
+use super::cells::{POLYGON, POLYLINE};
 use super::data::{Arrays, Described, gather};
 use super::grid::{Grid, Shells, polygons, starts, stream};
 use super::xml::{Form, MOST_PACKED, Node, Parts, arrays, child, components, name};
@@ -103,18 +104,25 @@ impl<'a, 'b> Piece<'_, 'a, 'b> {
         if surface {
             let [verts, lines, strips, polys] =
                 ["NumberOfVerts", "NumberOfLines", "NumberOfStrips", "NumberOfPolys"].map(|n| self.count(n));
-            let (thin, strips, polys) = (verts? + lines?, strips?, polys?);
+            let (verts, lines, strips, polys) = (verts?, lines?, strips?, polys?);
             if strips > 0 {
                 return Err("strips of triangles are not read (ParaView: Triangulate)".to_owned());
             }
-            if polys == 0 {
+            if lines + polys == 0 {
                 return Ok(None);
             }
             // what holds for cells is listed for points and lines first, and then for polygons
-            grid.kinds = vec![0; thin];
-            grid.kinds.resize(thin + polys, 7);
-            grid.cells = self.lists("Polys", polys, points)?;
-            grid.cells.starts.splice(0..0, std::iter::repeat_n(0, thin));
+            grid.cells = Polygons { starts: vec![0; verts + 1], corners: Vec::new() };
+            grid.kinds = vec![0; verts];
+            for (of, count, kind) in [("Lines", lines, POLYLINE), ("Polys", polys, POLYGON)] {
+                if count > 0 {
+                    grid.kinds.resize(grid.kinds.len() + count, kind);
+                    let lists = self.lists(of, count, points)?;
+                    let first = grid.cells.corners.len() as u32;
+                    grid.cells.starts.extend(lists.starts[1..].iter().map(|s| s + first));
+                    grid.cells.corners.extend(lists.corners);
+                }
+            }
         } else {
             let cells = self.count("NumberOfCells")?;
             if cells == 0 {

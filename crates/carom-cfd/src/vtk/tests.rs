@@ -4,6 +4,7 @@ use crate::{Field, Mesh, PatchKind};
 use std::path::PathBuf;
 
 mod broken;
+mod flat;
 mod legacy;
 
 /// Written by the vtk package and by foamToVTK: see tests/vtk/make.py and tests/vtk/foam/foam.sh.
@@ -175,8 +176,8 @@ fn polygons_beside_solids_name_patches_by_numbers_or_texts() {
         assert_eq!(
             snapshot.notes[..2],
             [
-                "all 1 2-D cells of \"inside\" lie inside the mesh: they are left out; the first of them begins at (1, 0, 0)",
-                "7 outer faces are in no block and on no 2-D cell: they are patch `boundary`"
+                "all 1 boundary cells of \"inside\" lie inside the mesh: they are left out; the first of them begins at (1, 0, 0)",
+                "7 outer faces are in no block and on no boundary cell: they are patch `boundary`"
             ]
         );
         has_volumes(name, &snapshot.mesh, &[1.0; 2]);
@@ -189,11 +190,11 @@ fn polygons_beside_solids_name_patches_by_numbers_or_texts() {
     assert_eq!(numbers.fields.others, ["names"]);
     let without = get("sides.vtu");
     assert_eq!(patches(&without.mesh), [("boundary", 10)]);
-    assert!(without.notes[0].starts_with("4 2-D cells lie beside the solid ones: patches ="), "{:?}", without.notes);
+    assert!(without.notes[0].starts_with("4 boundary cells lie beside the others: patches ="), "{:?}", without.notes);
     let missing = refused("sides.vtu", &told(Some("patch")));
     assert!(missing.ends_with("no cell array `patch`; there are names, zone"), "{missing}");
     let none = refused("ascii.vtu", &told(Some("T")));
-    assert!(none.contains("no 2-D cells lie beside"), "{none}");
+    assert!(none.contains("no boundary cells lie beside"), "{none}");
 }
 
 #[test]
@@ -212,7 +213,7 @@ fn blocks_name_patches_and_have_the_values_there() {
         assert_eq!(
             snapshot.notes,
             [
-                "13 outer faces are in no block and on no 2-D cell: they are patch `boundary`",
+                "13 outer faces are in no block and on no boundary cell: they are patch `boundary`",
                 "the velocity is of cells, and the file gives it no values on boundary: there the cells' own hold, and the fluid slips along walls"
             ]
         );
@@ -265,10 +266,7 @@ fn fields_are_named_or_listed() {
     let missing = refused("ascii.vtu", &named(|n| n.velocity = text("UMean")));
     assert!(missing.ends_with("no field `UMean`; there are T, U (3), k, p"), "{missing}");
     let none = refused("foam/plane-cells/plane_0/boundary/inlet.vtp", &Options::default());
-    assert!(
-        none.contains("2 polygons and no solid cells: a plane or axisymmetric result is made solid first"),
-        "{none}"
-    );
+    assert!(none.contains("2 polygons and no solid cells: their velocity leads out of their plane"), "{none}");
 }
 
 #[test]

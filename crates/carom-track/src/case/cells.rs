@@ -1,6 +1,6 @@
 //! Finished CFD results in a case: `[flow]` of a mesh, `patch` of a wall, `patch` of an injection.
 
-use super::check::{needed, wrong};
+use super::check::{needed, unknown, wrong};
 use super::files::Files;
 use super::text::{FieldsText, FlowText, TimeName, WallText};
 use super::wall::SYMMETRY;
@@ -59,7 +59,8 @@ pub(super) fn read(
         _ => {
             let file = needed(&text.value.file, text, "file", "a vtk flow")?;
             let patches = text.value.patches.as_ref().map(|p| p.value.clone());
-            let options = vtk::Options { names: names(text.value.fields.as_ref()), patches };
+            let axis = text.value.axisymmetric.as_ref().map(axis).transpose()?;
+            let options = vtk::Options { names: names(text.value.fields.as_ref()), patches, axis };
             let read = vtk::read(&files.beside(&file.value), &options);
             (file, read.map_err(|e| wrong(file, e.to_string()))?)
         }
@@ -80,6 +81,12 @@ pub(super) fn read(
         notes.extend(cells.boundary_inside().map(|note| format!("{}: {note}", at.value)));
     }
     Ok(Arc::new(cells))
+}
+
+/// The axis that an axisymmetric result goes round.
+fn axis(text: &At<String>) -> Result<vtk::Axis, LawError> {
+    let named = vtk::Axis::ALL.into_iter().find(|axis| axis.name() == text.value);
+    named.ok_or_else(|| unknown(text, "axis", vtk::Axis::ALL.into_iter().map(vtk::Axis::name)))
 }
 
 fn names(text: Option<&At<FieldsText>>) -> Names {

@@ -116,6 +116,7 @@ fn refuse_others(text: &At<FlowText>, kind: &str) -> Result<(), LawError> {
         ("time", text.time.as_ref().map(|a| a.span.clone())),
         ("fields", text.fields.as_ref().map(|a| a.span.clone())),
         ("patches", text.patches.as_ref().map(|a| a.span.clone())),
+        ("axisymmetric", text.axisymmetric.as_ref().map(|a| a.span.clone())),
     ];
     let keys: &[&str] = match kind {
         "still" => &[],
@@ -127,7 +128,7 @@ fn refuse_others(text: &At<FlowText>, kind: &str) -> Result<(), LawError> {
         "round-jet" => &["diameter", "speed"],
         "table" => &["file", "columns"],
         "openfoam" => &["case", "time", "fields"],
-        "vtk" => &["file", "fields", "patches"],
+        "vtk" => &["file", "fields", "patches", "axisymmetric"],
         "fluent" => &["file", "fields"],
         _ => return Ok(()),
     };

@@ -4,6 +4,7 @@ use crate::force::{NearWall, RandomWalk};
 mod cells;
 mod curvature;
 mod erosion;
+mod flat;
 mod fluid;
 mod flux;
 mod forces;

@@ -71,6 +71,7 @@ pub(super) struct FlowText {
     pub time: Option<At<TimeName>>,
     pub fields: Option<At<FieldsText>>,
     pub patches: Option<At<String>>,
+    pub axisymmetric: Option<At<String>>,
 }
 
 /// The name of a time, written as text or as a number.
