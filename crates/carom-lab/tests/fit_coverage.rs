@@ -149,10 +149,6 @@ fn damped() -> Study {
 }
 
 #[test]
-#[cfg_attr(
-    debug_assertions,
-    ignore = "minutes unless optimized: cargo test --release -p carom-lab --test fit_coverage"
-)]
 fn damping_and_roughness_with_known_noise() {
     damped().covers(wald);
 }
