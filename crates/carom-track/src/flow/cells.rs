@@ -141,9 +141,7 @@ impl Cells {
         let seams = Seams::new(mesh, &areas);
         let base = base_points(mesh, &cell_centres);
         let mut cut = Cut::new(mesh, &base);
-        // values at points may differ along a column
-        let alike = matches!(fields.velocity, Some(Field::Cells { .. }));
-        let strips = plane.as_ref().filter(|_| alike).and_then(|plane| Strips::new(mesh, plane, &mut cut));
+        let strips = plane.as_ref().and_then(|plane| Strips::new(snapshot, plane, &mut cut));
         let nodes = Nodes { mesh, cut: &cut, cell_centres: &cell_centres, face_centres: &face_centres, seams: &seams };
         let mut velocity = nodes.values(velocity, |carry, v: Vec3| carry.vector(v));
         seams.along_mirrors(&mut velocity);

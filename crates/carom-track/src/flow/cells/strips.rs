@@ -1,14 +1,14 @@
 //! Plane cases: across the plane that the fields are taken in, nothing changes, so the two triangles of a side make one.
 //!
 //! The mesh of a plane case is one cell thick. A face between two cells, or on the boundary but for the empty sides, is a strip between
-//! two columns of two points each, on which the fields are alike. So a cell is cut by its centre and its strips into as many triangles
+//! two columns of two points each, on which the fields are alike (where values are given at points, that is looked at). So a cell is cut by its centre and its strips into as many triangles
 //! of the plane, each of them in place of two tetrahedra with the same linear field. It is known by the first tetrahedron of its strip,
 //! two of whose corners are on one column: each has half of the column's barycentric coordinate.
 
 use super::beyond::Plane;
 use super::cut::Cut;
 use crate::vector::{norm, sub};
-use carom_cfd::{Mesh, PatchKind};
+use carom_cfd::{Field, Fields, Mesh, PatchKind, Snapshot};
 
 /// Along the plane, this share of an edge's length is none.
 const ALONG: f64 = 1e-6;
@@ -24,11 +24,15 @@ pub(super) struct Strips {
 const UNUSED: u8 = 3;
 
 impl Strips {
-    /// The strips of a plane case, whose neighbours are put into the cut; `None` where a side is no strip.
-    pub fn new(mesh: &Mesh, plane: &Plane, cut: &mut Cut) -> Option<Self> {
+    /// The strips of a plane case, whose neighbours are put into the cut; `None` where a side is no strip, or values at the points of a column differ.
+    pub fn new(snapshot: &Snapshot, plane: &Plane, cut: &mut Cut) -> Option<Self> {
+        let mesh = &snapshot.mesh;
         let empty = empty_faces(mesh);
         let sides: Vec<usize> = (0..mesh.faces.len()).filter(|f| !empty[*f]).collect();
         let column = columns(mesh, plane, &sides)?;
+        if column.iter().zip(0..).any(|(first, p)| !alike(&snapshot.fields, *first as usize, p)) {
+            return None;
+        }
         let mut strips = Self { alone: vec![UNUSED; cut.triangles.len()] };
         for face in sides {
             let first = cut.first[face] as usize;
@@ -104,6 +108,17 @@ fn columns(mesh: &Mesh, plane: &Plane, sides: &[usize]) -> Option<Vec<u32>> {
     Some(partner.into_iter().zip(0..).map(|(other, own)| own.min(other)).collect())
 }
 
+/// Whether what is given at two points is the same.
+fn alike(fields: &Fields, p: usize, q: usize) -> bool {
+    fn is_same<const N: usize>(field: Option<&Field<N>>, p: usize, q: usize) -> bool {
+        match field {
+            Some(Field::Points(values)) => values[p] == values[q],
+            _ => true,
+        }
+    }
+    is_same(fields.velocity.as_ref(), p, q) && fields.scalars().into_iter().all(|(_, field)| is_same(field, p, q))
+}
+
 fn empty_faces(mesh: &Mesh) -> Vec<bool> {
     let mut empty = vec![false; mesh.faces.len()];
     for patch in mesh.patches.iter().filter(|p| p.kind == PatchKind::Empty) {
@@ -120,7 +135,6 @@ mod tests {
     use crate::vector::Vec3;
     use carom_cfd::block::Kind;
     use carom_cfd::geometry::{base_points, cell_centres_and_volumes, face_centres_and_areas};
-    use carom_cfd::{Field, Snapshot};
 
     /// A plane case of uneven cells with a velocity of its own in each.
     fn plane_case() -> Snapshot {
@@ -160,6 +174,28 @@ mod tests {
             assert!(norm(sub(got.velocity_at(x), want.velocity_at(x))) < 1e-12, "{x:?}");
         }
         assert!(inside > 1500, "{inside}");
+    }
+
+    #[test]
+    fn values_at_points_are_alike_on_their_columns_or_no_strips_are_made() {
+        let mut snapshot = plane_case();
+        let along = |x: &Vec3| [x[0].sin() + x[1], x[0] * x[1], 0.0];
+        snapshot.fields.velocity = Some(Field::Points(snapshot.mesh.points.iter().map(along).collect()));
+        let cells = Cells::new(&snapshot).unwrap();
+        assert!(cells.strips.is_some());
+        let whole = Cells { strips: None, ..Cells::new(&snapshot).unwrap() };
+        let mut dice = Dice::new(12);
+        let mut inside = 0;
+        for _ in 0..500 {
+            let x = dice.point();
+            let (got, want) = (cells.find(x), whole.find(x));
+            inside += usize::from(!got.is_nowhere());
+            assert!(norm(sub(got.velocity_at(x), want.velocity_at(x))) < 1e-12, "{x:?}");
+        }
+        assert!(inside > 300, "{inside}");
+        let Some(Field::Points(values)) = &mut snapshot.fields.velocity else { unreachable!() };
+        values[7][0] += 1e-3;
+        assert!(Cells::new(&snapshot).unwrap().strips.is_none());
     }
 
     #[test]
