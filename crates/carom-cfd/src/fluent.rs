@@ -9,13 +9,18 @@
 //! **Fields** are those of the first phase (of the mixture, where there are several), at cells and at the faces of the boundary: `SV_U`, `SV_V`, `SV_W`, `SV_K`, `SV_D` (ε),
 //! `SV_O` (ω), `SV_DENSITY`, `SV_T`, `SV_P` (relative to the operating pressure). [`Names`] name others, the velocity by its first component.
 //!
-//! Not read, and refused: plane and axisymmetric cases (two dimensions), meshes refined by hanging nodes (`tree`). Periodic zones and
+//! Cases of two dimensions are plane, one layer of cells between two [empty](crate::PatchKind::Empty) sides, or, with [`Options::axis`], a [wedge](crate::PatchKind::Wedge)
+//! of 5°, with the swirl `SV_W` where there is one.
+//!
+//! Not read, and refused: meshes refined by hanging nodes (`tree`). Periodic zones and
 //! non-conformal interfaces become patches, which a note tells.
 
 mod fields;
+mod flat;
 mod hdf;
 mod mesh;
 
+pub use crate::vtk::Axis;
 use crate::{Error, Fields, Names, Snapshot, check};
 use hdf::Hdf;
 use std::path::{Path, PathBuf};
@@ -27,6 +32,8 @@ pub struct Options {
     pub data: Option<PathBuf>,
     /// Names of the fields, where they are not the usual ones.
     pub names: Names,
+    /// The axis of an axisymmetric case of two dimensions, in Fluent x; none: such a case is plane.
+    pub axis: Option<Axis>,
 }
 
 /// Reads a case and its data. A case without data beside it has a mesh alone.
@@ -38,7 +45,7 @@ pub fn read(case: &Path, options: &Options) -> Result<Snapshot, Error> {
         Some(data) => Some(Hdf::open(data)?),
         None => Some(beside(case)).filter(|data| data.exists()).map(|data| Hdf::open(&data)).transpose()?,
     };
-    let mut snapshot = snapshot(&Hdf::open(case)?, data.as_ref(), &options.names)?;
+    let mut snapshot = snapshot(&Hdf::open(case)?, data.as_ref(), options)?;
     if data.is_none() {
         snapshot.notes.push(format!("no data: there is no {}", beside(case).display()));
     }
@@ -49,13 +56,19 @@ pub fn read(case: &Path, options: &Options) -> Result<Snapshot, Error> {
 ///
 /// # Errors
 /// What cannot be read, or cannot be used: see [above](self).
-pub fn from_bytes(case: Vec<u8>, data: Option<Vec<u8>>, names: &Names) -> Result<Snapshot, Error> {
+pub fn from_bytes(case: Vec<u8>, data: Option<Vec<u8>>, options: &Options) -> Result<Snapshot, Error> {
     let data = data.map(|data| Hdf::of(data, Path::new("data"))).transpose()?;
-    snapshot(&Hdf::of(case, Path::new("case"))?, data.as_ref(), names)
+    snapshot(&Hdf::of(case, Path::new("case"))?, data.as_ref(), options)
 }
 
-fn snapshot(case: &Hdf, data: Option<&Hdf>, names: &Names) -> Result<Snapshot, Error> {
+fn snapshot(case: &Hdf, data: Option<&Hdf>, Options { names, axis, .. }: &Options) -> Result<Snapshot, Error> {
     let mut notes = Vec::new();
+    if mesh::dimensions(case)? == 2 {
+        return flat::read(case, data, names, *axis, notes);
+    }
+    if axis.is_some() {
+        return Err(case.error("a case of three dimensions: axisymmetric is for those of two"));
+    }
     let part = mesh::read(case, &mut notes)?;
     let fields = match data {
         Some(data) => fields::read(data, &part, names, &mut notes)?,

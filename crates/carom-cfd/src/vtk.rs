@@ -40,15 +40,19 @@ mod number;
 mod old;
 mod patches;
 mod piece;
+#[cfg(feature = "fluent")]
+mod plane;
 mod sides;
 mod turn;
 pub mod xml;
 
 pub use number::{Number, Stored};
+#[cfg(feature = "fluent")]
+pub(crate) use plane::Flat;
 
 use crate::{Error, Names, Snapshot, check};
 use cells::is_solid;
-use files::{Load, need_solids};
+use files::{Found, Load, need_solids};
 use grid::Grid;
 use patches::Surface;
 use std::collections::HashMap;
@@ -111,11 +115,22 @@ pub fn from_bytes(file: Vec<u8>, options: &Options) -> Result<Snapshot, Error> {
 }
 
 fn snapshot(bytes: Vec<u8>, path: &Path, load: Load, options: &Options) -> Result<Snapshot, Error> {
-    let fail = |what: String| Error::file(path, what);
     let mut notes = Vec::new();
     let mut found = files::all(&bytes, path, load, options)?;
     drop(bytes);
     let beside_plane = need_solids(&mut found, options, path, &mut notes)?;
+    of_found(found, &beside_plane, path, options, notes)
+}
+
+/// What grids of solid cells and of polygons make, with the sides beside a plane.
+fn of_found(
+    found: Found,
+    beside_plane: &[flat::Side],
+    path: &Path,
+    options: &Options,
+    mut notes: Vec<String>,
+) -> Result<Snapshot, Error> {
+    let fail = |what: String| Error::file(path, what);
     if found.blocks.len() > 1 {
         let names = found.blocks.join(", ");
         notes.push(format!("the blocks {names} are one mesh: they hang together where points coincide exactly"));
@@ -138,7 +153,7 @@ fn snapshot(bytes: Vec<u8>, path: &Path, load: Load, options: &Options) -> Resul
     let mut surfaces: Vec<Surface> = blocks.collect();
     surfaces.extend(beside(&grid, surfaces.is_empty(), path, options, &mut notes)?);
     let mut kinds = Vec::new();
-    for (name, kind, grid) in &beside_plane {
+    for (name, kind, grid) in beside_plane {
         let mut name = (*name).to_owned();
         while surfaces.iter().any(|s| s.name == name) {
             name.push('_');

@@ -32,6 +32,9 @@ pub struct Args {
     /// Time of a case of OpenFOAM; the latest without it
     #[arg(long, value_name = "NAME")]
     time: Option<String>,
+    /// Axis that a result of VTK or Fluent goes round whose cells are polygons of a plane: x, y or z; plane without it
+    #[arg(long, value_name = "AXIS", value_parser = axis)]
+    axisymmetric: Option<vtk::Axis>,
     /// Print JSON, SI units
     #[arg(long, help_heading = "Output")]
     json: bool,
@@ -41,7 +44,7 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<(), Failure> {
     let case = folder_of_marker(&args.case);
     std::fs::metadata(case).map_err(|e| of_file(&case.display().to_string(), &e))?;
-    let info = if case.is_dir() {
+    let mut info = if case.is_dir() {
         let options = openfoam::Options { time: args.time.clone(), ..openfoam::Options::default() };
         let times = openfoam::times(case).map_err(failure)?;
         let snapshot = openfoam::read(case, &options).map_err(failure)?;
@@ -49,16 +52,32 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     } else if args.time.is_some() {
         return Err(Failure::input("--time is of a case of OpenFOAM, which is a folder"));
     } else if is_mesh_of_vtk(case) {
-        let mut snapshot = vtk::read(case, &vtk::Options::default()).map_err(failure)?;
+        let options = vtk::Options { axis: args.axisymmetric, ..vtk::Options::default() };
+        let mut snapshot = vtk::read(case, &options).map_err(failure)?;
         let gaps = carom_track::flow::Cells::new(&snapshot).ok().and_then(|cells| cells.boundary_inside());
         snapshot.notes.extend(gaps);
         Info::new("VTK", case, Vec::new(), &snapshot)
     } else if case.to_string_lossy().to_ascii_lowercase().ends_with(".cas.h5") {
-        Info::new("Fluent", case, Vec::new(), &fluent(case)?)
+        Info::new("Fluent", case, Vec::new(), &fluent(case, args.axisymmetric)?)
     } else {
-        return table::run(case, args.json);
+        return match args.axisymmetric {
+            Some(_) => Err(Failure::input("--axisymmetric is of a mesh of VTK or Fluent")),
+            None => table::run(case, args.json),
+        };
     };
+    if let Some(axis) = args.axisymmetric {
+        if info.kind == "OpenFOAM" {
+            return Err(Failure::input(
+                "--axisymmetric is of a mesh of VTK or Fluent: OpenFOAM's has patches of type wedge",
+            ));
+        }
+        let _ = writeln!(info.flow, "axisymmetric = \"{}\"", axis.name());
+    }
     if args.json { output::print_json(&info) } else { output::print(&info.tell()?) }
+}
+
+fn axis(name: &str) -> Result<vtk::Axis, String> {
+    vtk::Axis::ALL.into_iter().find(|axis| axis.name() == name).ok_or_else(|| "x, y or z is wanted".to_owned())
 }
 
 /// A case may be named by the empty file in it by which ParaView opens it.
@@ -69,13 +88,13 @@ fn folder_of_marker(case: &Path) -> &Path {
 }
 
 #[cfg(feature = "fluent")]
-fn fluent(case: &Path) -> Result<Snapshot, Failure> {
+fn fluent(case: &Path, axis: Option<vtk::Axis>) -> Result<Snapshot, Failure> {
     use carom_cfd::fluent;
-    fluent::read(case, &fluent::Options::default()).map_err(failure)
+    fluent::read(case, &fluent::Options { axis, ..fluent::Options::default() }).map_err(failure)
 }
 
 #[cfg(not(feature = "fluent"))]
-fn fluent(case: &Path) -> Result<Snapshot, Failure> {
+fn fluent(case: &Path, _: Option<vtk::Axis>) -> Result<Snapshot, Failure> {
     Err(Failure::input(format!("{}: this carom was built without the feature `fluent`", case.display())))
 }
 

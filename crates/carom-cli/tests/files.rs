@@ -311,3 +311,33 @@ fn info_goes_by_what_a_file_holds() {
     assert!(told("pieces.vtpd", pieces).contains("none.vtu"));
     assert!(told("times.pvd", times).contains("name the file of one time"));
 }
+
+#[cfg(feature = "fluent")]
+#[test]
+fn what_info_says_of_an_axisymmetric_case_of_fluent_runs() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let stored = Path::new(env!("CARGO_MANIFEST_DIR")).join("../carom-cfd/tests/fluent");
+    for name in ["flat.cas.h5", "flat.dat.h5"] {
+        std::fs::copy(stored.join(name), folder.path().join(name)).expect("a copy");
+    }
+    let out = carom(folder.path(), "info flat.cas.h5 --axisymmetric x");
+    let told = String::from_utf8_lossy(&out.stdout).into_owned();
+    assert!(told.contains("front  wedge") && told.contains("a wedge of 5 degrees"), "{told}");
+    let (_, tables) = told.split_once("For a case file:\n").expect("tables to paste");
+    let rest = "\n[[injection]]\ndensity = 1000\ndiameter = \"50 um\"\ncount = 20\nposition = { box = [[0.1, 0.2, 0], [0.3, 0.8, 0]] }\n\
+                velocity = [1, 0, 0]\n[run]\nuntil = \"10 s\"\n";
+    std::fs::write(folder.path().join("case.toml"), format!("{tables}{rest}")).expect("a case");
+    let out = carom(folder.path(), "run case.toml");
+    let told = String::from_utf8_lossy(&out.stdout).into_owned() + &String::from_utf8_lossy(&out.stderr);
+    // its swirl of 100 m/s throws all to the wall
+    assert!(out.status.success() && told.contains("20 particles: 20 trapped"), "{told}");
+    for (arguments, want) in [
+        ("info case.toml --axisymmetric x", "--axisymmetric is of a mesh of VTK or Fluent"),
+        ("info flat.cas.h5 --axisymmetric r", "x, y or z is wanted"),
+        ("info flat.cas.h5", "axisymmetric = \"x\""),
+    ] {
+        let out = carom(folder.path(), arguments);
+        assert_eq!(out.status.code(), Some(2));
+        assert!(String::from_utf8_lossy(&out.stderr).contains(want), "{arguments}");
+    }
+}

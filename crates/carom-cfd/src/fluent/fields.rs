@@ -10,7 +10,18 @@ const PHASE: &str = "results/1/phase-1";
 /// Usual names of the scalars, in the order of [`Names`].
 const USUAL: [&str; 7] = ["SV_U", "SV_K", "SV_D", "SV_O", "SV_DENSITY", "SV_T", "SV_P"];
 
-pub(super) fn read(file: &Hdf, part: &Part, names: &Names, notes: &mut Vec<String>) -> Result<Fields, Error> {
+/// Which fields a result has and are meant, by their names.
+pub(super) struct Chosen {
+    /// The components of the velocity; a case of two dimensions may have no third one.
+    pub velocity: [Option<String>; 3],
+    /// The scalars, in the order of [`Names`].
+    pub scalars: [Option<String>; 6],
+    /// The names of the others.
+    pub others: Vec<String>,
+}
+
+/// Chooses among the fields of a file.
+pub(super) fn choose(file: &Hdf, plane: bool, names: &Names, notes: &mut Vec<String>) -> Result<Chosen, Error> {
     let there = file.groups(&format!("{PHASE}/cells"));
     if there.is_empty() {
         return Err(file.error(format!("no results: {PHASE}/cells is not there")));
@@ -29,29 +40,52 @@ pub(super) fn read(file: &Hdf, part: &Part, names: &Names, notes: &mut Vec<Strin
             Wanted::None => None,
         };
     }
-    let Some(u) = &found[0] else { return Err(missing(file, "SV_U", there)) };
+    let [Some(u), scalars @ ..] = found else { return Err(missing(file, "SV_U", there)) };
     // the other components by the first one's name
     let components = ["SV_U", "SV_V", "SV_W"].map(|c| u.replacen("SV_U", c, 1));
     if components[0] == components[1] {
         return Err(file.error(format!("the velocity is named by its first component, SV_U or SV_U_MEAN, not {u}")));
     }
-    if let Some(name) = components.iter().find(|c| !there.contains(c)) {
+    let needed = if plane { 2 } else { 3 };
+    if let Some(name) = components[..needed].iter().find(|c| !there.contains(c)) {
         return Err(missing(file, name, there));
     }
-    let velocity = field(file, part, &components.each_ref().map(String::as_str), notes)?;
-    let mut scalars: [Option<Field<1>>; 6] = Default::default();
-    for (scalar, name) in scalars.iter_mut().zip(&found[1..]) {
+    if scalars[5].is_some() {
+        notes.push("the pressure is relative to the operating pressure of the case".to_owned());
+    }
+    let used = |n: &String| components.contains(n) || scalars.iter().flatten().any(|f| f == n);
+    let others = there.iter().filter(|n| !used(n)).cloned().collect();
+    Ok(Chosen { velocity: components.map(|c| Some(c).filter(|c| there.contains(c))), scalars, others })
+}
+
+pub(super) fn read(file: &Hdf, part: &Part, names: &Names, notes: &mut Vec<String>) -> Result<Fields, Error> {
+    let mut of_pressure = Vec::new();
+    let Chosen { velocity, scalars, others } = choose(file, false, names, &mut of_pressure)?;
+    let name = |c: usize| velocity[c].as_deref().unwrap_or_default();
+    let velocity = field(file, part, &[name(0), name(1), name(2)], notes)?;
+    let mut read: [Option<Field<1>>; 6] = Default::default();
+    for (scalar, name) in read.iter_mut().zip(&scalars) {
         if let Some(name) = name {
             *scalar = Some(field(file, part, &[name], notes)?);
         }
     }
-    let [k, epsilon, omega, density, temperature, pressure] = scalars;
-    if pressure.is_some() {
-        notes.push("the pressure is relative to the operating pressure of the case".to_owned());
-    }
-    let used = |n: &String| components.contains(n) || found.iter().flatten().any(|f| f == n);
-    let others = there.iter().filter(|n| !used(n)).cloned().collect();
+    notes.extend(of_pressure);
+    let [k, epsilon, omega, density, temperature, pressure] = read;
     Ok(Fields { velocity: Some(velocity), k, epsilon, omega, density, temperature, pressure, others })
+}
+
+/// Values of a quantity at all cells or faces (`of`) of a file, component by component: zero where a component is none, not a number where there are no values.
+pub(super) fn values(file: &Hdf, of: &str, names: &[Option<String>], count: usize) -> Result<Vec<f64>, Error> {
+    let mut all = vec![0.0; names.len() * count];
+    for (c, name) in names.iter().enumerate() {
+        let Some(name) = name else { continue };
+        let at = format!("{PHASE}/{of}/{name}");
+        let found = if of == "cells" || file.has(&at) { list(file, &at, count)? } else { vec![f64::NAN; count] };
+        for (value, found) in all.iter_mut().skip(c).step_by(names.len()).zip(found) {
+            *value = found;
+        }
+    }
+    Ok(all)
 }
 
 fn missing(file: &Hdf, name: &str, there: Vec<String>) -> Error {

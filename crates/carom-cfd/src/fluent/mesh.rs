@@ -19,27 +19,56 @@ pub(super) struct Part {
 }
 
 /// No cell.
-const NONE: u32 = u32::MAX;
+pub(super) const NONE: u32 = u32::MAX;
 
 /// A zone of cells or of faces.
-struct Zone {
-    name: String,
+pub(super) struct Zone {
+    pub name: String,
     kind: u64,
-    range: Range<usize>,
+    pub range: Range<usize>,
+}
+
+impl Zone {
+    /// What a zone of the boundary is.
+    pub fn patch(&self) -> PatchKind {
+        match self.kind {
+            3 => PatchKind::Wall,
+            7 => PatchKind::Symmetry,
+            _ => PatchKind::Plain,
+        }
+    }
 }
 
 /// Faces as the file has them: corners, and cells on both sides by their new numbers.
-struct Faces {
-    polygons: Polygons,
-    cells: [Vec<u32>; 2],
+pub(super) struct Faces {
+    pub polygons: Polygons,
+    pub cells: [Vec<u32>; 2],
 }
 
-pub(super) fn read(file: &Hdf, notes: &mut Vec<String>) -> Result<Part, Error> {
-    const MESH: &str = "meshes/1";
+/// A mesh as the file has it.
+pub(super) struct Raw {
+    pub places: Vec<[f64; 3]>,
+    pub faces: Faces,
+    pub zones: Vec<Zone>,
+    /// Numbers of the cells of the fluid in the file, from 0.
+    pub kept: Vec<u32>,
+    /// How many cells and faces the file has.
+    pub counts: [usize; 2],
+}
+
+/// How many dimensions a case has.
+pub(super) fn dimensions(file: &Hdf) -> Result<usize, Error> {
     match file.attribute(MESH, "dimension")? {
-        3 => {}
-        n => return Err(file.error(format!("a case of {n} dimensions: only those of three are read"))),
+        n @ (2 | 3) => Ok(n as usize),
+        n => Err(file.error(format!("a case of {n} dimensions"))),
     }
+}
+
+const MESH: &str = "meshes/1";
+
+/// What a file holds of its mesh.
+pub(super) fn raw(file: &Hdf, notes: &mut Vec<String>) -> Result<Raw, Error> {
+    let dimensions = dimensions(file)?;
     for tree in ["cells/tree", "faces/tree"] {
         if file.has(&format!("{MESH}/{tree}")) {
             return Err(file.error("the mesh is refined by hanging nodes (tree), which is not read"));
@@ -51,18 +80,25 @@ pub(super) fn read(file: &Hdf, notes: &mut Vec<String>) -> Result<Part, Error> {
         Ok(all.len())
     };
     let [points, faces, cells] = [count("nodeCount")?, count("faceCount")?, count("cellCount")?];
-    // what is long is read before anything is made as long as the file says: a cell has four faces at least, a face two cells at most
-    let places = self::points(file, points)?;
+    // what is long is read before anything is made as long as the file says: a cell has a face more than dimensions at least, a face two cells at most
+    let places = self::points(file, points, dimensions)?;
     let polygons = polygons(file, points, faces)?;
-    if cells > faces / 2 {
+    if cells > 2 * faces / (dimensions + 1) {
         return Err(file.error(format!("{cells} cells do not have {faces} faces alone")));
     }
     let (new, kept) = fluid(file, cells, notes)?;
-    let mut faces = Faces { cells: both_sides(file, faces, cells, &new)?, polygons };
+    let faces = Faces { cells: both_sides(file, faces, cells, &new)?, polygons };
     let zones = zones(file, "meshes/1/faces/zoneTopology", faces.polygons.len())?;
+    let counts = [cells, faces.polygons.len()];
+    Ok(Raw { places, faces, zones, kept, counts })
+}
+
+/// The mesh of a case of three dimensions.
+pub(super) fn read(file: &Hdf, notes: &mut Vec<String>) -> Result<Part, Error> {
+    let Raw { places, mut faces, zones, kept, counts } = raw(file, notes)?;
     outward(&places, &mut faces);
     let mut part = assemble(&faces, &zones, kept.len(), notes);
-    part.counts = [cells, faces.polygons.len()];
+    part.counts = counts;
     part.cells = kept;
     let used = renumber(&mut part.mesh.faces.corners, places.len());
     part.mesh.points = match used {
@@ -117,12 +153,12 @@ fn fluid(file: &Hdf, cells: usize, notes: &mut Vec<String>) -> Result<(Vec<u32>,
     Ok((new, kept))
 }
 
-fn points(file: &Hdf, count: usize) -> Result<Vec<[f64; 3]>, Error> {
+fn points(file: &Hdf, count: usize, dimensions: usize) -> Result<Vec<[f64; 3]>, Error> {
     let mut zones = Vec::new();
     for zone in file.numbers::<i64>("meshes/1/nodes/zoneTopology/id")? {
         let at = format!("meshes/1/nodes/coords/{zone}");
         let range = file.range(&at)?;
-        zones.push((range.start, file.so_many::<f64>(&at, range.len().saturating_mul(3))?));
+        zones.push((range.start, file.so_many::<f64>(&at, range.len().saturating_mul(dimensions))?));
     }
     zones.sort_by_key(|z| z.0);
     let mut points: Vec<[f64; 3]> = Vec::new();
@@ -130,7 +166,7 @@ fn points(file: &Hdf, count: usize) -> Result<Vec<[f64; 3]>, Error> {
         if begin != points.len() {
             return Err(file.error(format!("nodes from {} on where {} is the next", begin + 1, points.len() + 1)));
         }
-        points.extend(numbers.as_chunks::<3>().0);
+        points.extend(numbers.chunks(dimensions).map(|x| [x[0], x[1], x.get(2).copied().unwrap_or(0.0)]));
     }
     if points.len() != count {
         return Err(file.error(format!("{} nodes, and nodeCount is {count}", points.len())));
@@ -252,19 +288,14 @@ fn assemble(faces: &Faces, zones: &[Zone], cells: usize, notes: &mut Vec<String>
         notes.extend(said(zone, through));
         let faces = begin..mesh.owner.len();
         if !faces.is_empty() {
-            let kind = match zone.kind {
-                3 => PatchKind::Wall,
-                7 => PatchKind::Symmetry,
-                _ => PatchKind::Plain,
-            };
-            mesh.patches.push(Patch { name: zone.name.clone(), groups: Vec::new(), kind, faces });
+            mesh.patches.push(Patch { name: zone.name.clone(), groups: Vec::new(), kind: zone.patch(), faces });
         }
     }
     Part { mesh, cells: Vec::new(), boundary, counts: [0; 2] }
 }
 
 /// What is to be said of a zone of faces. Types are those of Fluent's files of meshes: 2 interior, 8 and 12 periodic, 24 interface.
-fn said(zone: &Zone, through: usize) -> Option<String> {
+pub(super) fn said(zone: &Zone, through: usize) -> Option<String> {
     let name = &zone.name;
     match zone.kind {
         8 | 12 => Some(format!("the zone {name} is periodic: it is a patch, through which nothing goes on")),

@@ -92,21 +92,73 @@ fn what_cannot_be_used_is_refused() {
 }
 
 #[test]
+fn a_case_of_two_dimensions_is_plane_or_a_wedge() {
+    let areas = |mesh: &crate::Mesh| {
+        let (centres, areas) = face_centres_and_areas(&mesh.points, &mesh.faces);
+        cell_centres_and_volumes(mesh, &centres, &areas).1
+    };
+    let kinds = |mesh: &crate::Mesh| {
+        mesh.patches.iter().map(|p| (p.name.clone(), p.kind.clone(), p.faces.len())).collect::<Vec<_>>()
+    };
+    let patch = |name: &str, kind: PatchKind, faces: usize| (name.to_owned(), kind, faces);
+    let all =
+        [patch("inlet", PatchKind::Plain, 1), patch("axis", PatchKind::Plain, 3), patch("pipe", PatchKind::Wall, 3)];
+    // with swirl no case is plane: without it, or without data, this one is
+    let swirl = refused("flat.cas.h5", &Options::default());
+    assert!(swirl.contains("velocity leads out of their plane"), "{swirl}");
+    let folder = tempfile::tempdir().unwrap();
+    let alone = folder.path().join("alone.cas.h5");
+    std::fs::copy(path("flat.cas.h5"), &alone).unwrap();
+    let Snapshot { mesh, .. } = read(&alone, &Options::default()).unwrap();
+    assert_eq!(kinds(&mesh), [&all[..], &[patch("frontAndBack", PatchKind::Empty, 6)]].concat());
+    let thick = 0.01 * 10.0_f64.sqrt();
+    assert!(areas(&mesh).iter().zip([1.0, 1.0, 0.5]).all(|(v, a)| (v - a * thick).abs() < 1e-15), "{:?}", areas(&mesh));
+
+    let about = |axis| Options { axis: Some(axis), ..Options::default() };
+    let Snapshot { mesh, fields, notes, .. } = read(&path("flat.cas.h5"), &about(Axis::X)).unwrap();
+    // what lies on the axis is no face
+    let wedge = [patch("front", PatchKind::Wedge, 3), patch("back", PatchKind::Wedge, 3)];
+    assert_eq!(kinds(&mesh), [&all[..1], &all[2..], &wedge].concat());
+    let tan = 2.5_f64.to_radians().tan();
+    assert!(
+        areas(&mesh).iter().zip([1.0, 1.0, 1.0 / 3.0]).all(|(v, m)| (v - m * tan).abs() < 1e-15),
+        "{:?}",
+        areas(&mesh)
+    );
+    let (u, boundary) = cells(&fields.velocity);
+    assert_eq!(u, [[1.0, -0.1, 101.0], [2.0, -0.2, 102.0], [3.0, -0.3, 103.0]]);
+    assert_eq!(boundary[..4].iter().map(|u| u[0]).collect::<Vec<_>>(), [13.0, 17.0, 18.0, 19.0]);
+    assert_eq!(cells(&fields.pressure).1[..2], [[8.0], [12.0]]);
+    assert_eq!(
+        notes,
+        [
+            "the pressure is relative to the operating pressure of the case",
+            "an axisymmetric result: its cells are taken as a wedge of 5 degrees"
+        ]
+    );
+    assert!(refused("row.cas.h5", &about(Axis::X)).contains("a case of three dimensions"));
+}
+
+#[test]
 fn bytes_by_chance_never_panic() {
     use proptest::prelude::*;
-    let files: Vec<Vec<u8>> =
-        ["turned.cas.h5", "turned.dat.h5"].iter().map(|f| std::fs::read(path(f)).unwrap()).collect();
+    let files: Vec<Vec<u8>> = ["turned.cas.h5", "turned.dat.h5", "flat.cas.h5", "flat.dat.h5"]
+        .iter()
+        .map(|f| std::fs::read(path(f)).unwrap())
+        .collect();
     let changes = || prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 0..4);
     proptest!(ProptestConfig::with_cases(150), |(of_case in changes(), of_data in changes())| {
-        let changed = |file: &[u8], changes: Vec<(prop::sample::Index, u8)>| {
+        let changed = |file: &[u8], changes: &[(prop::sample::Index, u8)]| {
             let mut bytes = file.to_vec();
             for (place, byte) in changes {
                 let place = place.index(bytes.len());
-                bytes[place] = byte;
+                bytes[place] = *byte;
             }
             bytes
         };
-        let data = changed(&files[1], of_data);
-        let _ = from_bytes(changed(&files[0], of_case), Some(data), &Names::default());
+        for pair in files.chunks(2) {
+            let (case, data) = (changed(&pair[0], &of_case), changed(&pair[1], &of_data));
+            let _ = from_bytes(case, Some(data), &Options { axis: Some(Axis::X), ..Options::default() });
+        }
     });
 }

@@ -145,7 +145,8 @@ pub(super) fn need_solids(
         (0, _) => Err(fail(format!("no cells but {ghosts} copies of another piece's"))),
         _ => {
             all_named(found, options, path)?;
-            flat::solid(found, axis, notes).map_err(|why| fail(format!("{count} polygons and no solid cells: {why}")))
+            flat::solid(found, axis, true, notes)
+                .map_err(|why| fail(format!("{count} polygons and no solid cells: {why}")))
         }
     }
 }

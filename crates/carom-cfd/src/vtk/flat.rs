@@ -31,12 +31,19 @@ enum Spread {
 }
 
 /// Makes the cells solid, and says what was made of them; the sides that lie beside the plane are returned.
-pub(super) fn solid(found: &mut Found, axis: Option<Axis>, notes: &mut Vec<String>) -> Result<Vec<Side>, String> {
+///
+/// What `must_flow` has a velocity, which tells a result from the side of a body.
+pub(super) fn solid(
+    found: &mut Found,
+    axis: Option<Axis>,
+    must_flow: bool,
+    notes: &mut Vec<String>,
+) -> Result<Vec<Side>, String> {
     let all = || found.solids.iter().chain(found.surfaces.iter().map(|(_, grid)| grid));
     let plane = Plane::of(all())?;
     let spread = match axis {
-        None => plane.layer(all())?,
-        Some(axis) => plane.wedge(axis, all())?,
+        None => plane.layer(all(), must_flow)?,
+        Some(axis) => plane.wedge(axis, all(), must_flow)?,
     };
     notes.push(match &spread {
         Spread::Layer(half) => {
@@ -87,13 +94,14 @@ impl Plane {
             point.get_or_insert(grid.points[polygon[0] as usize]);
         }
         let (Some(normal), Some(point)) = (unit(sum), point) else { return Err("no polygon has an area".to_owned()) };
-        let (mut size, mut off) = (0.0_f64, 0.0_f64);
+        let (mut off, mut low, mut high) = (0.0_f64, point, point);
         for grid in grids {
             for (x, _) in grid.points.iter().zip(grid.used(is_flat)).filter(|(_, used)| *used) {
-                let away = sub(*x, point);
-                (size, off) = (size.max(length(away)), off.max(dot(away, normal).abs()));
+                off = off.max(dot(sub(*x, point), normal).abs());
+                (low, high) = ([0, 1, 2].map(|c| low[c].min(x[c])), [0, 1, 2].map(|c| high[c].max(x[c])));
             }
         }
+        let size = length(sub(high, low));
         if off > ROUNDED * size {
             return Err("they do not lie in a plane".to_owned());
         }
@@ -102,28 +110,34 @@ impl Plane {
         Ok(Self { normal: unit(tidy).unwrap_or(normal), point, size })
     }
 
-    fn layer<'a>(&self, grids: impl Iterator<Item = &'a Grid>) -> Result<Spread, String> {
+    fn layer<'a>(&self, grids: impl Iterator<Item = &'a Grid> + Clone, must_flow: bool) -> Result<Spread, String> {
         let (mut fastest, mut across) = (0.0_f64, 0.0_f64);
-        for u in grids.flat_map(velocities) {
+        for u in grids.clone().flat_map(velocities) {
             (fastest, across) = (fastest.max(length(u)), across.max(dot(u, self.normal).abs()));
         }
-        if fastest == 0.0 {
-            return Err("they have no velocity, as a plane or axisymmetric result has".to_owned());
+        if fastest == 0.0 && must_flow {
+            return Err(format!("they have no velocity, as a plane result has{}", there(grids)));
         }
         if across > ACROSS * fastest {
-            return Err("their velocity leads out of their plane, as on a side of a body".to_owned());
+            return Err("their velocity leads out of their plane, as on a side of a body, or with swirl in an axisymmetric result: axisymmetric = \"x\" (or y, z)"
+                    .to_owned());
         }
         Ok(Spread::Layer(scaled(0.5 * THICK * self.size, self.normal)))
     }
 
-    fn wedge<'a>(&self, axis: Axis, grids: impl Iterator<Item = &'a Grid> + Clone) -> Result<Spread, String> {
+    fn wedge<'a>(
+        &self,
+        axis: Axis,
+        grids: impl Iterator<Item = &'a Grid> + Clone,
+        must_flow: bool,
+    ) -> Result<Spread, String> {
         let (name, along) = (axis.name(), axis.direction());
         let least = ROUNDED * self.size;
         if dot(along, self.normal).abs() > ROUNDED || dot(self.point, self.normal).abs() > least {
             return Err(format!("the {name} axis is not in their plane"));
         }
-        if grids.clone().flat_map(velocities).all(|u| u == [0.0; 3]) {
-            return Err("they have no velocity, as an axisymmetric result has".to_owned());
+        if must_flow && grids.clone().flat_map(velocities).all(|u| u == [0.0; 3]) {
+            return Err(format!("they have no velocity, as an axisymmetric result has{}", there(grids)));
         }
         // the sides may be numbered either way, but all of the result is on one of the axis
         let radial = cross(along, self.normal);
@@ -139,6 +153,14 @@ impl Plane {
         }
         Ok(Spread::Wedge { axis: along, least })
     }
+}
+
+/// What else there is, for a message.
+fn there<'a>(grids: impl Iterator<Item = &'a Grid>) -> String {
+    let mut all: Vec<&str> = grids.flat_map(|g| &g.data.others).map(String::as_str).collect();
+    all.sort_unstable();
+    all.dedup();
+    if all.is_empty() { String::new() } else { format!("; there are {}", all.join(", ")) }
 }
 
 fn is_flat(kind: u8) -> bool {

@@ -1,6 +1,6 @@
 """Writes stand-ins for results of Fluent, with h5py (3.16 was used): the lists, their types, chunks and compression are those of files of Fluent 22.2 that Ansys
 publishes (github.com/ansys/example-data, pyfluent/mixing_elbow), no file is copied. usage: make.py, in this folder; `make.py --full FILE` writes the
-case with the lists that are not read here but by VTK's vtkFLUENTCFFReader, which finds hexahedra of 6 m³ in it.
+case with the lists that are not read here but by VTK's vtkFLUENTCFFReader, which finds hexahedra of 6 m³ in it; `make.py --full-flat FOLDER/` the one of two dimensions.
 
 Three bricks of sides 1, 2, 3 in a row along x: two of the fluid, with an interior face between them, and a solid one behind a wall and its shadow.
 U = (cell number, 0, 0), on the boundary (10 + number of the face, 0, 0) but for the zone `top`, which has no values.
@@ -128,9 +128,75 @@ def data(name, kind, libver, broken=False):
                 put(group, str(n + 1), [at(i) for i in range(a, b + 1)], kind, minId=a, maxId=b)
 
 
+def flat(folder, full=False):
+    """Two squares and a triangle in a row along the axis of a case of two dimensions, a hole in none of them; U = cell number, V = −U/10, swirl = 100 + cell number."""
+    places = [(0, 0), (1, 0), (2, 0), (3, 0), (0, 1), (1, 1), (2, 1)]
+    # name, type, lines with the cells on both sides; c0 lies on their right, as in Fluent's files
+    lines = [
+        ("interior--air", 2, [((6, 2), 1, 2), ((3, 7), 3, 2)]),
+        ("inlet", 10, [((1, 5), 1, 0)]),
+        ("axis", 37, [((2, 1), 1, 0), ((3, 2), 2, 0), ((4, 3), 3, 0)]),
+        ("pipe", 3, [((5, 6), 1, 0), ((6, 7), 2, 0), ((7, 4), 3, 0)]),
+    ]
+    with h5py.File(f"{folder}flat.cas.h5", "w", libver="earliest") as f:
+        mesh = f.create_group("meshes/1")
+        faces = [face for _, _, all in lines for face in all]
+        numbers(mesh, nodeCount=len(places), cellCount=3, faceCount=len(faces), nodeOffset=0, cellOffset=0, faceOffset=0)
+        mesh.attrs["dimension"] = np.array([2], "i4")
+        nodes = mesh.create_group("nodes")
+        topology(nodes, [(9, 1, len(places))])
+        put(nodes.create_group("coords"), "9", places, "f8", minId=1, maxId=len(places))
+        cells = mesh.create_group("cells")
+        zone = topology(cells, [(5, 1, 3)], zoneType=[1], cellType=[0], childZoneId=[0])
+        text(zone, "name", "air")
+        group = mesh.create_group("faces")
+        rows, first = [], 1
+        for i, (_, _, all) in enumerate(lines):
+            rows.append((20 + i, first, first + len(all) - 1))
+            first += len(all)
+        zone = topology(group, rows, zoneType=[k for _, k, _ in lines], childZoneId=[0] * len(lines))
+        text(zone, "name", ";".join(n for n, _, _ in lines))
+        section = group.create_group("nodes")
+        numbers(section, nSections=1)
+        s = section.create_group("1")
+        numbers(s, minId=1, maxId=len(faces))
+        put(s, "nnodes", [2] * len(faces), "i2")
+        put(s, "nodes", [q for f in faces for q in f[0]], "u4")
+        for name, which in (("c0", 1), ("c1", 2)):
+            side = group.create_group(name)
+            numbers(side, nSections=1)
+            # of c1 what lies between cells alone
+            some = [f[which] for f in faces][: len(faces) if name == "c0" else 2]
+            put(side, "1", some, "u4", minId=1, maxId=len(some))
+        f.create_group("settings")
+        if full:
+            for group, names in ((nodes, ["dimension"]), (cells, ["dimension"]), (group, ["dimension", "faceType", "shadowZoneId", "flags"])):
+                zone = group["zoneTopology"]
+                for key in names:
+                    put(zone, key, [2 if key == "dimension" else 0] * len(zone["id"]), "i4")
+            kinds = cells.create_group("ctype")
+            numbers(kinds, nSections=1)
+            put(kinds.create_group("1"), "cell-types", [3, 3, 1], "i2")
+            kinds["1"].attrs["minId"], kinds["1"].attrs["maxId"], kinds["1"].attrs["elementType"] = 1, 3, 0
+            return
+    with h5py.File(f"{folder}flat.dat.h5", "w", libver="earliest") as f:
+        phase = f.create_group("results/1/phase-1")
+        for field, cells, at in (("SV_U", [1, 2, 3], 10), ("SV_V", [-0.1, -0.2, -0.3], 0), ("SV_W", [101, 102, 103], 0), ("SV_P", [1, 2, 3], 5)):
+            group = phase.create_group(f"cells/{field}")
+            numbers(group, nSections=1)
+            put(group, "1", cells, "f8", minId=1, maxId=3)
+            group = phase.create_group(f"faces/{field}")
+            numbers(group, nSections=1)
+            put(group, "1", [at + i for i in range(3, 10)], "f8", minId=3, maxId=9)
+
+
 if sys.argv[1:2] == ["--full"]:
     case(sys.argv[2], False, "earliest", full=True)
     sys.exit()
+if sys.argv[1:2] == ["--full-flat"]:
+    flat(sys.argv[2], full=True)
+    sys.exit()
+flat("")
 case("row.cas.h5", False, "earliest")
 data("row.dat.h5", "f8", "earliest")
 case("turned.cas.h5", True, "latest")

@@ -52,15 +52,15 @@ pub(super) fn read(
         #[cfg(feature = "fluent")]
         "fluent" => {
             let file = needed(&text.value.file, text, "file", "a fluent flow")?;
-            let options = fluent::Options { names: names(text.value.fields.as_ref()), ..fluent::Options::default() };
+            let names = names(text.value.fields.as_ref());
+            let options = fluent::Options { names, axis: axis(&text.value)?, ..fluent::Options::default() };
             let read = fluent::read(&files.beside(&file.value), &options);
             (file, read.map_err(|e| wrong(file, e.to_string()))?)
         }
         _ => {
             let file = needed(&text.value.file, text, "file", "a vtk flow")?;
             let patches = text.value.patches.as_ref().map(|p| p.value.clone());
-            let axis = text.value.axisymmetric.as_ref().map(axis).transpose()?;
-            let options = vtk::Options { names: names(text.value.fields.as_ref()), patches, axis };
+            let options = vtk::Options { names: names(text.value.fields.as_ref()), patches, axis: axis(&text.value)? };
             let read = vtk::read(&files.beside(&file.value), &options);
             (file, read.map_err(|e| wrong(file, e.to_string()))?)
         }
@@ -83,10 +83,11 @@ pub(super) fn read(
     Ok(Arc::new(cells))
 }
 
-/// The axis that an axisymmetric result goes round.
-fn axis(text: &At<String>) -> Result<vtk::Axis, LawError> {
-    let named = vtk::Axis::ALL.into_iter().find(|axis| axis.name() == text.value);
-    named.ok_or_else(|| unknown(text, "axis", vtk::Axis::ALL.into_iter().map(vtk::Axis::name)))
+/// The axis that an axisymmetric result goes round, if it is one.
+fn axis(text: &FlowText) -> Result<Option<vtk::Axis>, LawError> {
+    let Some(at) = &text.axisymmetric else { return Ok(None) };
+    let named = vtk::Axis::ALL.into_iter().find(|axis| axis.name() == at.value);
+    named.map(Some).ok_or_else(|| unknown(at, "axis", vtk::Axis::ALL.into_iter().map(vtk::Axis::name)))
 }
 
 fn names(text: Option<&At<FieldsText>>) -> Names {

@@ -129,7 +129,7 @@ fn refuse_others(text: &At<FlowText>, kind: &str) -> Result<(), LawError> {
         "table" => &["file", "columns"],
         "openfoam" => &["case", "time", "fields"],
         "vtk" => &["file", "fields", "patches", "axisymmetric"],
-        "fluent" => &["file", "fields"],
+        "fluent" => &["file", "fields", "axisymmetric"],
         _ => return Ok(()),
     };
     for (key, span) in given {
