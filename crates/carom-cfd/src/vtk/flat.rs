@@ -10,7 +10,7 @@ use crate::geometry::face_centre_and_area;
 use crate::geometry::vector::{add, cross, dot, length, scaled, sub, unit};
 use crate::{PatchKind, Polygons};
 
-/// Distance from the plane, or of the axis, that rounding makes, over the size; that of coordinates in single precision.
+/// Distance from the plane, or of the axis, that rounding makes, over the size (or over the coordinates, if they are larger); that of single precision.
 const ROUNDED: f64 = 1e-6;
 /// Share of the fastest velocity that may lead out of a plane result.
 const ACROSS: f64 = 1e-3;
@@ -102,7 +102,7 @@ impl Plane {
             }
         }
         let size = length(sub(high, low));
-        if off > ROUNDED * size {
+        if off > ROUNDED * size.max(length(low)).max(length(high)) {
             return Err("they do not lie in a plane".to_owned());
         }
         // along a direction of the axes to the last bit where it is one
@@ -193,6 +193,7 @@ impl Spread {
         }
     }
 
+    /// Whether a point is the same on both sides.
     fn is_on_axis(&self, x: [f64; 3]) -> bool {
         match self {
             Self::Layer(_) => false,

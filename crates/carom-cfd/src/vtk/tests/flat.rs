@@ -78,6 +78,12 @@ fn a_plane_result_is_a_layer_between_empty_sides() {
         "{:?}",
         s.notes
     );
+    // coordinates of single precision far from the origin lie in a plane to their rounding
+    let far = |x: f64, y: f64| {
+        [f64::from((x + 1e3) as f32), f64::from(y as f32), f64::from((7e2 + 0.3 * x + 0.2 * y) as f32)]
+    };
+    let along = |x: [f64; 3]| [1.0, 0.0, 0.3 * if x[0] > 0.0 { 1.0 } else { 0.0 }];
+    assert_eq!(read_as(&row(far, along, false), &Options::default()).unwrap().mesh.cells, 3);
     // any plane does, numbered from either side; without lines all is one patch
     for tilt in [0.7, -0.7, 2.5] {
         let (c, d) = (f64::cos(tilt), f64::sin(tilt));
