@@ -130,6 +130,8 @@ pub(super) fn need_solids(
     let axis = options.axis;
     let fail = |what: String| Error::file(path, what);
     if found.solids.iter().any(Grid::has_solids) {
+        // lines are of no use to solid cells
+        found.surfaces.retain(|(_, grid)| grid.has_polygons());
         return match axis {
             Some(_) => {
                 Err(fail("its cells are solid: axisymmetric is for results whose cells are polygons".to_owned()))

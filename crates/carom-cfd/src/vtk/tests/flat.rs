@@ -190,13 +190,18 @@ fn blocks_of_lines_are_patches() {
     let blocks = "<VTKFile type=\"vtkMultiBlockDataSet\"><vtkMultiBlockDataSet><DataSet name=\"inside\" file=\"a.vtu\"/>\
                   <DataSet name=\"low\" file=\"b.vtp\"/></vtkMultiBlockDataSet></VTKFile>";
     std::fs::write(folder.path().join("all.vtm"), blocks).unwrap();
-    std::fs::write(folder.path().join("a.vtu"), inside).unwrap();
+    std::fs::write(folder.path().join("a.vtu"), &inside).unwrap();
     std::fs::write(folder.path().join("b.vtp"), low(0.0)).unwrap();
     let all = || read(&folder.path().join("all.vtm"), &Options::default());
     let s = all().unwrap();
     let plain = &PatchKind::Plain;
     assert_eq!(kinds(&s.mesh), [("low", plain, 2), ("frontAndBack", &PatchKind::Empty, 2), ("boundary", plain, 2)]);
     assert_eq!(cells(&s.fields.velocity).1[..2], [[2.0, 0.0, 0.0]; 2]);
+    // beside solid cells they are of no use
+    std::fs::write(folder.path().join("a.vtu"), std::fs::read(path("ascii.vtu")).unwrap()).unwrap();
+    let alone = get("ascii.vtu");
+    assert_eq!((&all().unwrap().mesh, all().unwrap().notes), (&alone.mesh, alone.notes.clone()));
+    std::fs::write(folder.path().join("a.vtu"), inside).unwrap();
     std::fs::write(folder.path().join("b.vtp"), low(0.5)).unwrap();
     let error = all().unwrap_err().to_string();
     assert!(error.contains("no face of any block lies on an outer face of the mesh"), "{error}");
