@@ -8,14 +8,14 @@ export CARGO_TERM_COLOR=never
 # from a clean tree in CI; by hand from the tree as it is
 dirty=(--allow-dirty)
 [[ -z ${CI:-} ]] || dirty=()
+if [[ ${1:-} == full ]]; then
+    # cargo keeps what it unpacked and built of the same versions before, and would build against that instead of today's
+    rm -rf target/verified "${CARGO_HOME:-$HOME/.cargo}"/registry/{src,cache}/*/carom-{[0-9],cfd-,cli-,c-,lab-,report-,table-,track-,web-}*
+    exec cargo package --workspace --locked --target-dir target/verified "${dirty[@]}"
+fi
 unpacked=target/unpacked
 rm -rf target/package "$unpacked"
 mkdir -p "$unpacked"
-if [[ ${1:-} == full ]]; then
-    # cargo keeps what it unpacked and built of the same versions before, and would build against that instead of today's
-    rm -rf "${CARGO_HOME:-$HOME/.cargo}"/registry/{src,cache}/*/carom-{[0-9],cfd-,cli-,c-,lab-,report-,table-,track-,web-}*
-    exec cargo package --workspace --locked "${dirty[@]}"
-fi
 cargo package --workspace --locked --no-verify "${dirty[@]}"
 for crate in target/package/*.crate; do tar -xzf "$crate" -C "$unpacked"; done
 cp Cargo.lock "$unpacked"
