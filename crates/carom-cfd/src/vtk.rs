@@ -18,7 +18,7 @@
 //!
 //! **The boundary**: a block's polygons lie on the outer faces whose corners have exactly the same coordinates, and the patch is called as the block.
 //! Polygons beside the solid cells of a grid do the same; [`Options::patches`] names the cell array whose values are the patches'
-//! names. All other outer faces are one patch, `boundary`. VTK knows no kinds of patches: all others are [`PatchKind::Plain`](crate::PatchKind::Plain).
+//! names. All other outer faces are one patch, `boundary`. VTK knows no kinds of patches: all others are [`PatchKind::Plain`].
 //!
 //! **Fields**: of points, or else of cells. Velocity by the names `U`, `velocity`, `Velocity`, or as [`Options::names`] says; then `k`, `epsilon`, `omega`, `rho` or
 //! `density`, `T` or `temperature`, `p` or `pressure` and what programs call them. On the boundary a field of cells has the values of the blocks, or else the cells'.
@@ -48,11 +48,11 @@ pub mod xml;
 
 pub use number::{Number, Stored};
 #[cfg(feature = "fluent")]
-pub(crate) use plane::Flat;
+pub(crate) use plane::{Flat, Values};
 
-use crate::{Error, Names, Snapshot, check};
-use cells::is_solid;
-use files::{Found, Load, need_solids};
+use crate::{Error, Names, PatchKind, Snapshot, check};
+use cells::{is_flat, is_solid};
+use files::{Block, Found, Load, need_solids};
 use grid::Grid;
 use patches::Surface;
 use std::collections::HashMap;
@@ -91,6 +91,11 @@ impl Axis {
         }
     }
 
+    /// The one of a name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|axis| axis.name() == name)
+    }
+
     fn direction(self) -> [f64; 3] {
         Self::ALL.map(|axis| f64::from(u8::from(axis == self)))
     }
@@ -118,18 +123,12 @@ fn snapshot(bytes: Vec<u8>, path: &Path, load: Load, options: &Options) -> Resul
     let mut notes = Vec::new();
     let mut found = files::all(&bytes, path, load, options)?;
     drop(bytes);
-    let beside_plane = need_solids(&mut found, options, path, &mut notes)?;
-    of_found(found, &beside_plane, path, options, notes)
+    need_solids(&mut found, options, path, &mut notes)?;
+    of_found(found, path, options, notes)
 }
 
-/// What grids of solid cells and of polygons make, with the sides beside a plane.
-fn of_found(
-    found: Found,
-    beside_plane: &[flat::Side],
-    path: &Path,
-    options: &Options,
-    mut notes: Vec<String>,
-) -> Result<Snapshot, Error> {
+/// What grids of solid cells make with those that name parts of their boundary.
+fn of_found(found: Found, path: &Path, options: &Options, mut notes: Vec<String>) -> Result<Snapshot, Error> {
     let fail = |what: String| Error::file(path, what);
     if found.blocks.len() > 1 {
         let names = found.blocks.join(", ");
@@ -144,28 +143,25 @@ fn of_found(
     }
     let solids: Vec<u32> = (0..grid.kinds.len() as u32).filter(|c| is_solid(grid.kinds[*c as usize])).collect();
     let sides = sides::Sides::of(&grid, &solids, &mut notes).map_err(fail)?;
-    let blocks = found.surfaces.iter().map(|(name, grid)| Surface {
+    let all = |grid: &Grid| (0..grid.kinds.len() as u32).collect();
+    let blocks = found.surfaces.iter().map(|Block { name, kind, grid }| Surface {
         name: name.clone(),
+        kind: kind.clone(),
         grid,
-        cells: (0..grid.kinds.len() as u32).collect(),
+        cells: all(grid),
         among_cells: false,
     });
     let mut surfaces: Vec<Surface> = blocks.collect();
     surfaces.extend(beside(&grid, surfaces.is_empty(), path, options, &mut notes)?);
-    let mut kinds = Vec::new();
-    for (name, kind, grid) in beside_plane {
-        let mut name = (*name).to_owned();
+    for Block { name, kind, grid } in &found.sides {
+        let mut name = name.clone();
         while surfaces.iter().any(|s| s.name == name) {
             name.push('_');
         }
-        kinds.push((name.clone(), kind));
-        surfaces.push(Surface { name, grid, cells: (0..grid.kinds.len() as u32).collect(), among_cells: true });
+        surfaces.push(Surface { name, kind: kind.clone(), grid, cells: all(grid), among_cells: true });
     }
     let boundary = patches::boundary(&grid.points, &sides, &surfaces, &mut notes).map_err(fail)?;
-    let (mut mesh, kept) = assemble::mesh(&grid, &sides, &boundary);
-    for (name, kind) in kinds {
-        mesh.patches.iter_mut().filter(|p| p.name == name).for_each(|p| p.kind = kind.clone());
-    }
+    let (mesh, kept) = assemble::mesh(&grid, &sides, &boundary);
     drop(sides);
     let kept = kept.as_deref();
     let sources =
@@ -188,14 +184,14 @@ fn beside<'a>(
     options: &Options,
     notes: &mut Vec<String>,
 ) -> Result<Vec<Surface<'a>>, Error> {
-    let flat: Vec<u32> = (0..grid.kinds.len()).filter(|c| grid.polygon(*c).is_some()).map(|c| c as u32).collect();
+    let flat: Vec<u32> = (0..grid.kinds.len() as u32).filter(|c| is_flat(grid.kinds[*c as usize])).collect();
     let mut surfaces: Vec<Surface> = Vec::new();
     let mut places: HashMap<String, usize> = HashMap::new();
     let mut add = |name: String, cell: u32| {
         let next = surfaces.len();
         match *places.entry(name.clone()).or_insert(next) {
             place if place < next => surfaces[place].cells.push(cell),
-            _ => surfaces.push(Surface { name, grid, cells: vec![cell], among_cells: true }),
+            _ => surfaces.push(Surface { name, kind: PatchKind::Plain, grid, cells: vec![cell], among_cells: true }),
         }
         next < MOST_PATCHES
     };

@@ -45,6 +45,10 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let case = folder_of_marker(&args.case);
     std::fs::metadata(case).map_err(|e| of_file(&case.display().to_string(), &e))?;
     let mut info = if case.is_dir() {
+        if args.axisymmetric.is_some() {
+            let what = "--axisymmetric is of a mesh of VTK or Fluent: OpenFOAM's has patches of type wedge";
+            return Err(Failure::input(what));
+        }
         let options = openfoam::Options { time: args.time.clone(), ..openfoam::Options::default() };
         let times = openfoam::times(case).map_err(failure)?;
         let snapshot = openfoam::read(case, &options).map_err(failure)?;
@@ -66,18 +70,13 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         };
     };
     if let Some(axis) = args.axisymmetric {
-        if info.kind == "OpenFOAM" {
-            return Err(Failure::input(
-                "--axisymmetric is of a mesh of VTK or Fluent: OpenFOAM's has patches of type wedge",
-            ));
-        }
         let _ = writeln!(info.flow, "axisymmetric = \"{}\"", axis.name());
     }
     if args.json { output::print_json(&info) } else { output::print(&info.tell()?) }
 }
 
 fn axis(name: &str) -> Result<vtk::Axis, String> {
-    vtk::Axis::ALL.into_iter().find(|axis| axis.name() == name).ok_or_else(|| "x, y or z is wanted".to_owned())
+    vtk::Axis::named(name).ok_or_else(|| "x, y or z is wanted".to_owned())
 }
 
 /// A case may be named by the empty file in it by which ParaView opens it.

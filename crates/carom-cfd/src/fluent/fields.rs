@@ -10,6 +10,9 @@ const PHASE: &str = "results/1/phase-1";
 /// Usual names of the scalars, in the order of [`Names`].
 const USUAL: [&str; 7] = ["SV_U", "SV_K", "SV_D", "SV_O", "SV_DENSITY", "SV_T", "SV_P"];
 
+/// What holds for a pressure.
+pub(super) const RELATIVE: &str = "the pressure is relative to the operating pressure of the case";
+
 /// Which fields a result has and are meant, by their names.
 pub(super) struct Chosen {
     /// The components of the velocity; a case of two dimensions may have no third one.
@@ -50,42 +53,71 @@ pub(super) fn choose(file: &Hdf, plane: bool, names: &Names, notes: &mut Vec<Str
     if let Some(name) = components[..needed].iter().find(|c| !there.contains(c)) {
         return Err(missing(file, name, there));
     }
-    if scalars[5].is_some() {
-        notes.push("the pressure is relative to the operating pressure of the case".to_owned());
-    }
     let used = |n: &String| components.contains(n) || scalars.iter().flatten().any(|f| f == n);
     let others = there.iter().filter(|n| !used(n)).cloned().collect();
     Ok(Chosen { velocity: components.map(|c| Some(c).filter(|c| there.contains(c))), scalars, others })
 }
 
 pub(super) fn read(file: &Hdf, part: &Part, names: &Names, notes: &mut Vec<String>) -> Result<Fields, Error> {
-    let mut of_pressure = Vec::new();
-    let Chosen { velocity, scalars, others } = choose(file, false, names, &mut of_pressure)?;
-    let name = |c: usize| velocity[c].as_deref().unwrap_or_default();
-    let velocity = field(file, part, &[name(0), name(1), name(2)], notes)?;
+    let Chosen { velocity, scalars, others } = choose(file, false, names, notes)?;
+    let velocity = field(file, part, &velocity, notes)?;
     let mut read: [Option<Field<1>>; 6] = Default::default();
-    for (scalar, name) in read.iter_mut().zip(&scalars) {
-        if let Some(name) = name {
+    for (scalar, name) in read.iter_mut().zip(scalars) {
+        if name.is_some() {
             *scalar = Some(field(file, part, &[name], notes)?);
         }
     }
-    notes.extend(of_pressure);
     let [k, epsilon, omega, density, temperature, pressure] = read;
+    if pressure.is_some() {
+        notes.push(RELATIVE.to_owned());
+    }
     Ok(Fields { velocity: Some(velocity), k, epsilon, omega, density, temperature, pressure, others })
 }
 
-/// Values of a quantity at all cells or faces (`of`) of a file, component by component: zero where a component is none, not a number where there are no values.
-pub(super) fn values(file: &Hdf, of: &str, names: &[Option<String>], count: usize) -> Result<Vec<f64>, Error> {
-    let mut all = vec![0.0; names.len() * count];
+/// Values of a quantity in some of a file's `count` cells, each of which must have one; zero where a component is none.
+pub(super) fn in_cells<const N: usize>(
+    file: &Hdf,
+    names: &[Option<String>; N],
+    cells: &[u32],
+    count: usize,
+) -> Result<Vec<[f64; N]>, Error> {
+    let mut values = vec![[0.0; N]; cells.len()];
     for (c, name) in names.iter().enumerate() {
         let Some(name) = name else { continue };
-        let at = format!("{PHASE}/{of}/{name}");
-        let found = if of == "cells" || file.has(&at) { list(file, &at, count)? } else { vec![f64::NAN; count] };
-        for (value, found) in all.iter_mut().skip(c).step_by(names.len()).zip(found) {
-            *value = found;
+        let all = list(file, &format!("{PHASE}/cells/{name}"), count)?;
+        for (value, cell) in values.iter_mut().zip(cells) {
+            value[c] = all[*cell as usize];
+        }
+        if let Some(cell) = cells.iter().find(|cell| !all[**cell as usize].is_finite()) {
+            let what = if all[*cell as usize].is_nan() { "no value" } else { "infinite" };
+            return Err(file.error(format!("{name} has {what} in cell {}", cell + 1)));
         }
     }
-    Ok(all)
+    Ok(values)
+}
+
+/// The same on some of a file's `count` faces; not a number where there is no value.
+pub(super) fn on_faces<const N: usize>(
+    file: &Hdf,
+    names: &[Option<String>; N],
+    faces: impl ExactSizeIterator<Item = u32> + Clone,
+    count: usize,
+) -> Result<Vec<[f64; N]>, Error> {
+    let mut values = vec![[f64::NAN; N]; faces.len()];
+    for (c, name) in names.iter().enumerate() {
+        let Some(name) = name else {
+            values.iter_mut().for_each(|value| value[c] = 0.0);
+            continue;
+        };
+        let at = format!("{PHASE}/faces/{name}");
+        if file.has(&at) {
+            let all = list(file, &at, count)?;
+            for (value, face) in values.iter_mut().zip(faces.clone()) {
+                value[c] = all[face as usize];
+            }
+        }
+    }
+    Ok(values)
 }
 
 fn missing(file: &Hdf, name: &str, there: Vec<String>) -> Error {
@@ -96,36 +128,20 @@ fn missing(file: &Hdf, name: &str, there: Vec<String>) -> Error {
 fn field<const N: usize>(
     file: &Hdf,
     part: &Part,
-    names: &[&str; N],
+    names: &[Option<String>; N],
     notes: &mut Vec<String>,
 ) -> Result<Field<N>, Error> {
-    let mut cells = vec![[0.0; N]; part.cells.len()];
     let owners = &part.mesh.owner[part.mesh.inner_faces()..];
-    let mut faces = vec![[f64::NAN; N]; owners.len()];
-    for (c, name) in names.iter().enumerate() {
-        let all = list(file, &format!("{PHASE}/cells/{name}"), part.counts[0])?;
-        for (value, cell) in cells.iter_mut().zip(&part.cells) {
-            value[c] = all[*cell as usize];
-        }
-        if let Some(cell) = part.cells.iter().find(|cell| !all[**cell as usize].is_finite()) {
-            let what = if all[*cell as usize].is_nan() { "no value" } else { "infinite" };
-            return Err(file.error(format!("{name} has {what} in cell {}", cell + 1)));
-        }
-        let at = format!("{PHASE}/faces/{name}");
-        if file.has(&at) {
-            let all = list(file, &at, part.counts[1])?;
-            for (value, face) in faces.iter_mut().zip(&part.boundary) {
-                value[c] = all[*face as usize];
-            }
-        }
-    }
+    let cells = in_cells(file, names, &part.cells, part.counts[0])?;
+    let mut faces = on_faces(file, names, part.boundary.iter().copied(), part.counts[1])?;
     let is_whole = |v: &[f64; N]| v.iter().all(|x| x.is_finite());
     let inner = part.mesh.inner_faces();
     let of = |p: &crate::Patch| p.faces.start - inner..p.faces.end - inner;
     let bare: Vec<&str> =
         part.mesh.patches.iter().filter(|p| !faces[of(p)].iter().all(is_whole)).map(|p| p.name.as_str()).collect();
     if !bare.is_empty() {
-        notes.push(format!("{} has no values on {}: there the cells' own hold", names[0], bare.join(", ")));
+        let name = names[0].as_deref().unwrap_or_default();
+        notes.push(format!("{name} has no values on {}: there the cells' own hold", bare.join(", ")));
     }
     for (value, owner) in faces.iter_mut().zip(owners) {
         if !is_whole(value) {

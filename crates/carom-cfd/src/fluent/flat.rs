@@ -1,13 +1,10 @@
 //! Cases of two dimensions: cells are polygons and faces are lines, made solid as the plane and axisymmetric results of VTK are.
 
-use super::fields::{Chosen, choose, values};
+use super::fields::{Chosen, RELATIVE, choose, in_cells, on_faces};
 use super::hdf::Hdf;
 use super::mesh::{NONE, Raw, raw, said};
-use crate::vtk::{Axis, Flat};
+use crate::vtk::{Axis, Flat, Values};
 use crate::{Error, Names, Polygons, Snapshot};
-
-/// Quantities of a result: the velocity and six scalars.
-const COUNT: usize = 7;
 
 /// Reads a case and its data.
 pub(super) fn read(
@@ -17,54 +14,48 @@ pub(super) fn read(
     axis: Option<Axis>,
     mut notes: Vec<String>,
 ) -> Result<Snapshot, Error> {
-    let raw = raw(case, &mut notes)?;
+    let raw = raw(case, 2, &mut notes)?;
     let rings = rings(case, &raw)?;
-    let mut fields: [Option<[Vec<f64>; 2]>; COUNT] = Default::default();
-    let mut others = Vec::new();
+    let (mut of_cells, mut of_faces, mut others) = (Values::default(), Values::default(), Vec::new());
     if let Some(data) = data {
         let Chosen { velocity, scalars, others: left } = choose(data, true, names, &mut notes)?;
-        others = left;
-        for (q, field) in fields.iter_mut().enumerate() {
-            let names = if q == 0 { velocity.to_vec() } else { vec![scalars[q - 1].clone()] };
-            if names[0].is_none() {
-                continue;
-            }
-            let of_cells = values(data, "cells", &names, raw.counts[0])?;
-            let missing =
-                |cell: &&u32| of_cells[**cell as usize * names.len()..][..names.len()].iter().any(|x| !x.is_finite());
-            if let (Some(cell), Some(name)) = (raw.kept.iter().find(missing), &names[0]) {
-                return Err(data.error(format!("{name} has no value in cell {}", cell + 1)));
-            }
-            *field = Some([of_cells, values(data, "faces", &names, raw.counts[1])?]);
+        [of_cells[0], of_faces[0]] = quantity(data, &raw, &velocity)?.map(Some);
+        for (q, name) in (1..).zip(scalars).filter(|(_, name)| name.is_some()) {
+            [of_cells[q], of_faces[q]] = quantity(data, &raw, &[name])?.map(Some);
         }
+        if of_cells[6].is_some() {
+            notes.push(RELATIVE.to_owned());
+        }
+        others = left;
     }
-    let picked = |place: usize, which: &[u32]| {
-        fields.each_ref().map(|field| {
-            let values = &field.as_ref()?[place];
-            let width = values.len() / raw.counts[place].max(1);
-            Some(which.iter().flat_map(|i| values[*i as usize * width..][..width].iter().copied()).collect())
-        })
-    };
-    let mut flat = Flat::new(raw.places.clone(), rings.clone(), picked(0, &raw.kept), others);
+    let mut flat = Flat::new(raw.places.clone(), rings.clone(), of_cells, others);
     for zone in &raw.zones {
         let (mut lines, mut faces) = (Vec::new(), Vec::new());
         for f in zone.range.clone() {
-            let [c0, c1] = raw.faces.cells.each_ref().map(|c| c[f]);
-            let cell = match (c0, c1) {
-                (NONE, NONE) => continue,
-                (cell, NONE) | (NONE, cell) => cell,
-                _ => continue,
-            };
+            let Some((cell, _)) = raw.faces.alone(f) else { continue };
             lines.push(along(rings.get(cell as usize), raw.faces.polygons.get(f)));
-            faces.push(f as u32);
+            faces.push(f);
         }
-        let through = zone.range.clone().filter(|f| raw.faces.cells.iter().all(|c| c[*f] != NONE)).count();
-        notes.extend(said(zone, through));
+        notes.extend(said(zone, zone.range.clone().filter(|f| raw.faces.is_between(*f)).count()));
         if !lines.is_empty() {
-            flat.add_boundary(&zone.name, zone.patch(), &lines, picked(1, &faces));
+            let picked = of_faces.each_ref().map(|values| {
+                let values = values.as_ref()?;
+                let width = values.len() / raw.counts[1];
+                Some(faces.iter().flat_map(|f| values[f * width..][..width].iter().copied()).collect())
+            });
+            flat.add_boundary(&zone.name, zone.patch(), &lines, picked);
         }
     }
     flat.snapshot(axis, case.path(), notes)
+}
+
+/// A quantity in the cells of the fluid and on all faces, one value after the other.
+fn quantity<const N: usize>(data: &Hdf, raw: &Raw, names: &[Option<String>; N]) -> Result<[Vec<f64>; 2], Error> {
+    let [cells, faces] = raw.counts;
+    Ok([
+        in_cells(data, names, &raw.kept, cells)?.into_flattened(),
+        on_faces(data, names, 0..faces as u32, faces)?.into_flattened(),
+    ])
 }
 
 /// The corners of each cell of the fluid, counter-clockwise.

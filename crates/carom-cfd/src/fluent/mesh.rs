@@ -45,6 +45,23 @@ pub(super) struct Faces {
     pub cells: [Vec<u32>; 2],
 }
 
+impl Faces {
+    /// The only cell of the fluid at a face, and whether the face is turned into it.
+    pub fn alone(&self, face: usize) -> Option<(u32, bool)> {
+        match self.cells.each_ref().map(|c| c[face]) {
+            [NONE, NONE] => None,
+            [cell, NONE] => Some((cell, false)),
+            [NONE, cell] => Some((cell, true)),
+            _ => None,
+        }
+    }
+
+    /// Whether a face lies between two cells of the fluid.
+    pub fn is_between(&self, face: usize) -> bool {
+        self.cells.iter().all(|c| c[face] != NONE)
+    }
+}
+
 /// A mesh as the file has it.
 pub(super) struct Raw {
     pub places: Vec<[f64; 3]>,
@@ -66,9 +83,8 @@ pub(super) fn dimensions(file: &Hdf) -> Result<usize, Error> {
 
 const MESH: &str = "meshes/1";
 
-/// What a file holds of its mesh.
-pub(super) fn raw(file: &Hdf, notes: &mut Vec<String>) -> Result<Raw, Error> {
-    let dimensions = dimensions(file)?;
+/// What a file holds of its mesh, of so many dimensions.
+pub(super) fn raw(file: &Hdf, dimensions: usize, notes: &mut Vec<String>) -> Result<Raw, Error> {
     for tree in ["cells/tree", "faces/tree"] {
         if file.has(&format!("{MESH}/{tree}")) {
             return Err(file.error("the mesh is refined by hanging nodes (tree), which is not read"));
@@ -95,7 +111,7 @@ pub(super) fn raw(file: &Hdf, notes: &mut Vec<String>) -> Result<Raw, Error> {
 
 /// The mesh of a case of three dimensions.
 pub(super) fn read(file: &Hdf, notes: &mut Vec<String>) -> Result<Part, Error> {
-    let Raw { places, mut faces, zones, kept, counts } = raw(file, notes)?;
+    let Raw { places, mut faces, zones, kept, counts } = raw(file, 3, notes)?;
     outward(&places, &mut faces);
     let mut part = assemble(&faces, &zones, kept.len(), notes);
     part.counts = counts;
@@ -234,13 +250,9 @@ fn both_sides(file: &Hdf, faces: usize, cells: usize, new: &[u32]) -> Result<[Ve
 fn outward(points: &[[f64; 3]], faces: &mut Faces) {
     let mut sum = 0.0;
     for f in 0..faces.polygons.len() {
-        let sign = match faces.cells.each_ref().map(|c| c[f] == NONE) {
-            [false, true] => 1.0,
-            [true, false] => -1.0,
-            _ => continue,
-        };
+        let Some((_, turned)) = faces.alone(f) else { continue };
         let (centre, area) = face_centre_and_area(points, faces.polygons.get(f));
-        sum += sign * dot(centre, area);
+        sum += if turned { -1.0 } else { 1.0 } * dot(centre, area);
     }
     if sum < 0.0 {
         let Polygons { starts, corners } = &mut faces.polygons;
@@ -261,7 +273,7 @@ fn assemble(faces: &Faces, zones: &[Zone], cells: usize, notes: &mut Vec<String>
         }
         mesh.faces.starts.push(mesh.faces.corners.len() as u32);
     };
-    let between = |f: &usize| c0[*f] != NONE && c1[*f] != NONE;
+    let between = |f: &usize| faces.is_between(*f);
     let mut inner: Vec<(u32, u32, u32)> =
         (0..faces.polygons.len()).filter(between).map(|f| (c0[f].min(c1[f]), c0[f].max(c1[f]), f as u32)).collect();
     inner.sort_unstable();
@@ -274,12 +286,7 @@ fn assemble(faces: &Faces, zones: &[Zone], cells: usize, notes: &mut Vec<String>
     for zone in zones {
         let begin = mesh.owner.len();
         for f in zone.range.clone() {
-            let (owner, turned) = match (c0[f], c1[f]) {
-                (NONE, NONE) => continue,
-                (cell, NONE) => (cell, false),
-                (NONE, cell) => (cell, true),
-                _ => continue,
-            };
+            let Some((owner, turned)) = faces.alone(f) else { continue };
             push(&mut mesh, f, turned);
             mesh.owner.push(owner);
             boundary.push(f as u32);

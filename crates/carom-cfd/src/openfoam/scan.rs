@@ -100,11 +100,7 @@ impl<'a> Scan<'a> {
         let rest = self.rest();
         let mut depth = 0_usize;
         let end = rest.iter().enumerate().position(|(i, b)| match b {
-            b'(' => {
-                depth += 1;
-                false
-            }
-            b'[' if i > 0 => {
+            b'(' | b'[' if *b == b'(' || i > 0 => {
                 depth += 1;
                 false
             }

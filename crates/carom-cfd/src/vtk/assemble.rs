@@ -40,10 +40,10 @@ pub(super) fn mesh(grid: &Grid, sides: &Sides, boundary: &Boundary) -> (Mesh, Op
     }
     let mut begin = mesh.owner.len();
     boundary.faces.iter().for_each(|f| push(&mut mesh, *f, cells[*f as usize]));
-    for (name, count) in &boundary.patches {
+    for (name, kind, count) in &boundary.patches {
         let faces = begin..begin + count;
         begin = faces.end;
-        mesh.patches.push(Patch { name: name.clone(), groups: Vec::new(), kind: PatchKind::Plain, faces });
+        mesh.patches.push(Patch { name: name.clone(), groups: Vec::new(), kind: kind.clone(), faces });
     }
     let kept = renumber(&mut mesh.faces.corners, grid.points.len());
     mesh.points = match &kept {
@@ -128,7 +128,7 @@ impl Sources<'_> {
         for patch in &self.mesh.patches {
             let mut on = self.boundary.on[patch.faces.start - inner..patch.faces.end - inner].iter();
             let has = |on: &Option<(u32, u32)>| on.is_some_and(|on| self.given(on, q).is_some());
-            if patch.kind == PatchKind::Plain && !on.all(has) {
+            if !matches!(patch.kind, PatchKind::Empty | PatchKind::Wedge) && !on.all(has) {
                 bare.push(&patch.name);
             }
         }

@@ -118,6 +118,11 @@ pub(super) fn is_quadratic(kind: u8) -> bool {
     matches!(kind, 21..=37 | 60..=81)
 }
 
+/// Whether a cell of a kind is a polygon.
+pub(super) fn is_flat(kind: u8) -> bool {
+    matches!(shape(kind), Shape::Flat(_) | Shape::FlatQuadratic)
+}
+
 /// Whether a cell of a kind is solid.
 pub(super) fn is_solid(kind: u8) -> bool {
     matches!(shape(kind), Shape::Solid(_) | Shape::Polyhedron)

@@ -1,9 +1,10 @@
 //! What a file holds, with the files that it names.
 
+use super::cells::is_flat;
 use super::grid::Grid;
 use super::xml::{Form, Node, Parts, child};
 use super::{Options, flat, old, piece};
-use crate::{Error, Wanted};
+use crate::{Error, PatchKind, Wanted};
 use memchr::memmem;
 use std::path::{Path, PathBuf};
 
@@ -17,9 +18,18 @@ pub(super) struct Found {
     pub solids: Vec<Grid>,
     /// Names of the blocks of solid cells.
     pub blocks: Vec<String>,
-    /// Grids of polygons alone, with the names of their blocks.
-    pub surfaces: Vec<(String, Grid)>,
+    /// Grids of polygons alone.
+    pub surfaces: Vec<Block>,
+    /// The sides beside the plane of a result that was made solid.
+    pub sides: Vec<Block>,
     pub time: Option<f64>,
+}
+
+/// A grid that names a part of the boundary.
+pub(super) struct Block {
+    pub name: String,
+    pub kind: PatchKind,
+    pub grid: Grid,
 }
 
 /// All that a file holds.
@@ -50,6 +60,11 @@ pub(super) fn all(bytes: &[u8], path: &Path, load: Load, options: &Options) -> R
 }
 
 impl Found {
+    /// All grids that the file holds.
+    pub fn grids(&self) -> impl Iterator<Item = &Grid> + Clone {
+        self.solids.iter().chain(self.surfaces.iter().map(|block| &block.grid))
+    }
+
     /// Takes the grids of a block, or of a file without blocks.
     fn take(&mut self, block: Option<&str>, grids: Vec<Grid>) {
         let solid = grids.iter().any(Grid::has_solids) || grids.iter().any(|g| g.data.ghosts > 0);
@@ -60,7 +75,7 @@ impl Found {
             if solid || block.is_none() {
                 self.solids.push(grid);
             } else if let Some(name) = block {
-                self.surfaces.push((name.to_owned(), grid));
+                self.surfaces.push(Block { name: name.to_owned(), kind: PatchKind::Plain, grid });
             }
         }
     }
@@ -120,34 +135,32 @@ fn root_type(bytes: &[u8]) -> Option<&str> {
     rest[1..].split(quote).next()
 }
 
-/// Makes the polygons of a plane or axisymmetric result solid, and returns the sides beside its plane; refuses files without cells.
+/// Makes the polygons of a plane or axisymmetric result solid; refuses files without cells.
 pub(super) fn need_solids(
     found: &mut Found,
     options: &Options,
     path: &Path,
     notes: &mut Vec<String>,
-) -> Result<Vec<flat::Side>, Error> {
-    let axis = options.axis;
+) -> Result<(), Error> {
     let fail = |what: String| Error::file(path, what);
     if found.solids.iter().any(Grid::has_solids) {
         // lines are of no use to solid cells
-        found.surfaces.retain(|(_, grid)| grid.has_polygons());
-        return match axis {
+        found.surfaces.retain(|block| block.grid.has_polygons());
+        return match options.axis {
             Some(_) => {
                 Err(fail("its cells are solid: axisymmetric is for results whose cells are polygons".to_owned()))
             }
-            None => Ok(Vec::new()),
+            None => Ok(()),
         };
     }
-    let polygons = |g: &Grid| (0..g.kinds.len()).filter(|c| g.polygon(*c).is_some()).count();
-    let count: usize = found.solids.iter().chain(found.surfaces.iter().map(|s| &s.1)).map(polygons).sum();
+    let count = found.grids().flat_map(|grid| &grid.kinds).filter(|kind| is_flat(**kind)).count();
     let ghosts: usize = found.solids.iter().map(|g| g.data.ghosts).sum();
     match (count, ghosts) {
         (0, 0) => Err(fail("no cells".to_owned())),
         (0, _) => Err(fail(format!("no cells but {ghosts} copies of another piece's"))),
         _ => {
             all_named(found, options, path)?;
-            flat::solid(found, axis, true, notes)
+            flat::make_solid(found, options.axis, true, notes)
                 .map_err(|why| fail(format!("{count} polygons and no solid cells: {why}")))
         }
     }
@@ -155,15 +168,21 @@ pub(super) fn need_solids(
 
 /// Refuses polygons without a field that is named; of the sides of a solid, fields are of less matter.
 fn all_named(found: &Found, options: &Options, path: &Path) -> Result<(), Error> {
-    let grids = || found.solids.iter().chain(found.surfaces.iter().map(|s| &s.1)).filter(|g| g.has_polygons());
+    let grids = || found.grids().filter(|g| g.has_polygons());
     for (q, wanted) in options.names.all().into_iter().enumerate() {
         let Wanted::Named(name) = wanted else { continue };
         if grids().all(|g| g.data.points[q].is_none() && g.data.cells[q].is_none()) {
-            let mut there: Vec<String> = grids().flat_map(|g| g.data.others.clone()).collect();
-            there.sort();
-            there.dedup();
-            return Err(Error::Missing { path: path.to_owned(), kind: "field", name: name.to_owned(), there });
+            let (path, there) = (path.to_owned(), others(grids()));
+            return Err(Error::Missing { path, kind: "field", name: name.to_owned(), there });
         }
     }
     Ok(())
+}
+
+/// Names of the arrays that are not used in any of some grids, in order.
+pub(super) fn others<'a>(grids: impl Iterator<Item = &'a Grid>) -> Vec<String> {
+    let mut all: Vec<String> = grids.flat_map(|g| &g.data.others).cloned().collect();
+    all.sort();
+    all.dedup();
+    all
 }

@@ -2,9 +2,9 @@
 //! Cells that are lines become the faces of the boundary.
 
 use super::Axis;
-use super::cells::{LINE, POLYGON, POLYHEDRON, POLYLINE, Shape, shape};
+use super::cells::{LINE, POLYGON, POLYHEDRON, POLYLINE, is_flat};
 use super::data::{Data, Labels, QUANTITIES};
-use super::files::Found;
+use super::files::{Block, Found, others};
 use super::grid::{Grid, Shells};
 use crate::geometry::face_centre_and_area;
 use crate::geometry::vector::{add, cross, dot, length, scaled, sub, unit};
@@ -19,9 +19,6 @@ const THICK: f64 = 0.01;
 /// Half of the wedge's angle: 2.5°.
 const HALF: f64 = 2.5 * std::f64::consts::PI / 180.0;
 
-/// A side of the layer that is no wall: its name, what it is, and its polygons.
-pub(super) type Side = (&'static str, PatchKind, Grid);
-
 /// How points of the plane are put on both sides of it.
 enum Spread {
     /// Half of the thickness along the normal.
@@ -30,46 +27,51 @@ enum Spread {
     Wedge { axis: [f64; 3], least: f64 },
 }
 
-/// Makes the cells solid, and says what was made of them; the sides that lie beside the plane are returned.
+/// Makes the cells solid, puts the sides beside the plane to what was found, and says what was made.
 ///
 /// What `must_flow` has a velocity, which tells a result from the side of a body.
-pub(super) fn solid(
+pub(super) fn make_solid(
     found: &mut Found,
     axis: Option<Axis>,
     must_flow: bool,
     notes: &mut Vec<String>,
-) -> Result<Vec<Side>, String> {
-    let all = || found.solids.iter().chain(found.surfaces.iter().map(|(_, grid)| grid));
-    let plane = Plane::of(all())?;
+) -> Result<(), String> {
+    let plane = Plane::of(found.grids())?;
     let spread = match axis {
-        None => plane.layer(all(), must_flow)?,
-        Some(axis) => plane.wedge(axis, all(), must_flow)?,
+        None => plane.layer(found.grids(), must_flow)?,
+        Some(axis) => plane.wedge(axis, found.grids(), must_flow)?,
     };
-    notes.push(match &spread {
-        Spread::Layer(half) => {
-            let thick = 2.0 * length(*half);
-            format!("a plane result: its cells are taken as {thick:.3e} m thick, so areas and fluxes are those of that; if it goes round an axis, axisymmetric = \"x\" (or y, z) says so")
-        }
-        Spread::Wedge { .. } => "an axisymmetric result: its cells are taken as a wedge of 5 degrees".to_owned(),
-    });
-    let mut sides: Vec<Side> = match &spread {
-        Spread::Layer(_) => vec![("frontAndBack", PatchKind::Empty, empty())],
-        Spread::Wedge { .. } => vec![("front", PatchKind::Wedge, empty()), ("back", PatchKind::Wedge, empty())],
+    let side = |name: &str, kind| Block { name: name.to_owned(), kind, grid: empty() };
+    let (mut sides, note) = match &spread {
+        Spread::Layer(half) => (
+            vec![side("frontAndBack", PatchKind::Empty)],
+            format!(
+                "a plane result: its cells are taken as {:.3e} m thick, so areas and fluxes are those of that; if it goes round an axis, \
+                 axisymmetric = \"x\" (or y, z) says so",
+                2.0 * length(*half)
+            ),
+        ),
+        Spread::Wedge { .. } => (
+            vec![side("front", PatchKind::Wedge), side("back", PatchKind::Wedge)],
+            "an axisymmetric result: its cells are taken as a wedge of 5 degrees".to_owned(),
+        ),
     };
+    notes.push(note);
     for grid in &mut found.solids {
         *grid = thick(std::mem::take(grid), &spread, &mut sides)?;
     }
-    for (name, mut grid) in std::mem::take(&mut found.surfaces) {
-        let solid = grid.has_polygons();
-        grid = thick(grid, &spread, &mut sides)?;
+    for block in std::mem::take(&mut found.surfaces) {
+        let solid = block.grid.has_polygons();
+        let grid = thick(block.grid, &spread, &mut sides)?;
         if solid {
-            found.blocks.push(name);
+            found.blocks.push(block.name);
             found.solids.push(grid);
         } else {
-            found.surfaces.push((name, grid));
+            found.surfaces.push(Block { grid, ..block });
         }
     }
-    Ok(sides)
+    found.sides = sides;
+    Ok(())
 }
 
 fn empty() -> Grid {
@@ -95,11 +97,9 @@ impl Plane {
         }
         let (Some(normal), Some(point)) = (unit(sum), point) else { return Err("no polygon has an area".to_owned()) };
         let (mut off, mut low, mut high) = (0.0_f64, point, point);
-        for grid in grids {
-            for (x, _) in grid.points.iter().zip(grid.used(is_flat)).filter(|(_, used)| *used) {
-                off = off.max(dot(sub(*x, point), normal).abs());
-                (low, high) = ([0, 1, 2].map(|c| low[c].min(x[c])), [0, 1, 2].map(|c| high[c].max(x[c])));
-            }
+        for x in places(grids) {
+            off = off.max(dot(sub(x, point), normal).abs());
+            (low, high) = ([0, 1, 2].map(|c| low[c].min(x[c])), [0, 1, 2].map(|c| high[c].max(x[c])));
         }
         let size = length(sub(high, low));
         if off > ROUNDED * size.max(length(low)).max(length(high)) {
@@ -142,11 +142,9 @@ impl Plane {
         // the sides may be numbered either way, but all of the result is on one of the axis
         let radial = cross(along, self.normal);
         let mut reach = [0.0_f64; 2];
-        for grid in grids {
-            for (x, _) in grid.points.iter().zip(grid.used(is_flat)).filter(|(_, used)| *used) {
-                let r = dot(*x, radial);
-                reach = [reach[0].min(r), reach[1].max(r)];
-            }
+        for x in places(grids) {
+            let r = dot(x, radial);
+            reach = [reach[0].min(r), reach[1].max(r)];
         }
         if reach[0] < -least && reach[1] > least {
             return Err(format!("they lie on both sides of the {name} axis"));
@@ -157,20 +155,20 @@ impl Plane {
 
 /// What else there is, for a message.
 fn there<'a>(grids: impl Iterator<Item = &'a Grid>) -> String {
-    let mut all: Vec<&str> = grids.flat_map(|g| &g.data.others).map(String::as_str).collect();
-    all.sort_unstable();
-    all.dedup();
+    let all = others(grids);
     if all.is_empty() { String::new() } else { format!("; there are {}", all.join(", ")) }
 }
 
-fn is_flat(kind: u8) -> bool {
-    matches!(shape(kind), Shape::Flat(_) | Shape::FlatQuadratic)
+/// Corners of the polygons, m.
+fn places<'a>(grids: impl Iterator<Item = &'a Grid>) -> impl Iterator<Item = [f64; 3]> {
+    let of = |grid: &'a Grid| grid.points.iter().zip(grid.used(is_flat)).filter(|(_, used)| *used).map(|(x, _)| *x);
+    grids.flat_map(of)
 }
 
 /// Velocities that are known in the polygons of a grid, or at its points, m/s.
 fn velocities(grid: &Grid) -> impl Iterator<Item = [f64; 3]> {
     let list = |values: &'_ Option<Vec<f64>>| values.as_deref().unwrap_or_default().as_chunks::<3>().0.to_vec();
-    let of_cells = list(&grid.data.cells[0]).into_iter().enumerate().filter(|(c, _)| grid.polygon(*c).is_some());
+    let of_cells = list(&grid.data.cells[0]).into_iter().enumerate().filter(|(c, _)| is_flat(grid.kinds[*c]));
     let all = list(&grid.data.points[0]).into_iter().chain(of_cells.map(|(_, u)| u));
     all.filter(|u| u.iter().all(|c| c.is_finite()))
 }
@@ -216,7 +214,7 @@ fn split(x: [f64; 3], axis: [f64; 3]) -> ([f64; 3], [f64; 3]) {
 }
 
 /// A grid of polygons and lines as one of polyhedra and polygons, the front and back of which are put to the sides.
-fn thick(grid: Grid, spread: &Spread, sides: &mut [Side]) -> Result<Grid, String> {
+fn thick(grid: Grid, spread: &Spread, sides: &mut [Block]) -> Result<Grid, String> {
     let count = grid.points.len();
     u32::try_from(2 * count).map_err(|_| "too many points")?;
     let on_axis: Vec<bool> = grid.points.iter().map(|x| spread.is_on_axis(*x)).collect();
@@ -239,7 +237,7 @@ fn thick(grid: Grid, spread: &Spread, sides: &mut [Side]) -> Result<Grid, String
             let last = sides.len() - 1;
             for (side, face) in [(0, &front), (last, &back)] {
                 push(&mut made.shells.faces, face);
-                let on = &mut sides[side].2;
+                let on = &mut sides[side].grid;
                 let first = on.points.len() as u32;
                 on.points.extend(face.iter().map(|p| made.points[*p as usize]));
                 push(&mut on.cells, &(first..on.points.len() as u32).collect::<Vec<_>>());

@@ -1,6 +1,6 @@
 //! A part of a result as its file holds it.
 
-use super::cells::{Shape, is_quadratic, is_solid, shape};
+use super::cells::{Shape, is_flat, is_quadratic, is_solid, shape};
 use super::data::Data;
 use crate::Polygons;
 
@@ -71,7 +71,7 @@ impl Grid {
     }
 
     pub fn has_polygons(&self) -> bool {
-        (0..self.kinds.len()).any(|cell| self.polygon(cell).is_some())
+        self.kinds.iter().any(|k| is_flat(*k))
     }
 
     /// Refuses cells of kinds that are not read, and those that have not as many points as their kind.

@@ -3,6 +3,7 @@
 use super::grid::Grid;
 use super::join::key;
 use super::sides::{NONE, Sides};
+use crate::PatchKind;
 use crate::geometry::face_centre_and_area;
 use crate::geometry::vector::dot;
 use carom_table::quoted;
@@ -11,6 +12,7 @@ use std::collections::HashMap;
 /// Polygons that may lie on outer faces, under a name.
 pub(super) struct Surface<'a> {
     pub name: String,
+    pub kind: PatchKind,
     pub grid: &'a Grid,
     /// Its polygons, by their numbers in the grid.
     pub cells: Vec<u32>,
@@ -25,8 +27,8 @@ pub(super) struct Boundary {
     pub faces: Vec<u32>,
     /// The surface and its polygon that each lies on.
     pub on: Vec<Option<(u32, u32)>>,
-    /// Names of patches, and how many faces they have.
-    pub patches: Vec<(String, usize)>,
+    /// Names of patches, what they are, and how many faces they have.
+    pub patches: Vec<(String, PatchKind, usize)>,
 }
 
 /// What became of a surface's polygons.
@@ -49,18 +51,18 @@ pub(super) fn boundary(
     notes: &mut Vec<String>,
 ) -> Result<Boundary, String> {
     let outer: Vec<u32> = (0..sides.faces.len() as u32).filter(|f| sides.other[*f as usize] == NONE).collect();
-    let mut names: Vec<String> = Vec::new();
+    let mut names: Vec<(String, PatchKind)> = Vec::new();
     // of each outer face: patch, surface, polygon
     let mut on: Vec<Option<(u32, u32, u32)>> = vec![None; outer.len()];
     if !surfaces.is_empty() {
         let places = Places::of(points, sides, &outer);
         let mut placed = 0;
         for (s, surface) in surfaces.iter().enumerate() {
-            let patch = names.iter().position(|n| *n == surface.name).unwrap_or(names.len()) as u32;
+            let patch = names.iter().position(|n| n.0 == surface.name).unwrap_or(names.len()) as u32;
             let tally = places.put(surface, s as u32, patch, points, sides, &outer, &mut on);
             placed += if surface.among_cells { 0 } else { tally.placed };
             if tally.placed > 0 && patch as usize == names.len() {
-                names.push(surface.name.clone());
+                names.push((surface.name.clone(), surface.kind.clone()));
             }
             notes.extend(judged(surface, &tally)?);
         }
@@ -71,18 +73,18 @@ pub(super) fn boundary(
     }
     let rest = on.iter().filter(|o| o.is_none()).count();
     if rest > 0 {
-        let name = if names.iter().any(|n| n == REST) { format!("{REST}-rest") } else { REST.to_owned() };
+        let name = if names.iter().any(|n| n.0 == REST) { format!("{REST}-rest") } else { REST.to_owned() };
         if !surfaces.is_empty() {
             notes.push(format!("{rest} outer faces are in no block and on no boundary cell: they are patch `{name}`"));
         }
-        names.push(name);
+        names.push((name, PatchKind::Plain));
     }
-    let mut patches: Vec<(String, usize)> = names.into_iter().map(|n| (n, 0)).collect();
+    let mut patches: Vec<_> = names.into_iter().map(|(name, kind)| (name, kind, 0)).collect();
     let last = patches.len().saturating_sub(1) as u32;
     let patch = |i: usize| on[i].map_or(last, |o| o.0);
     let mut order: Vec<usize> = (0..outer.len()).collect();
     order.sort_by_key(|i| patch(*i));
-    order.iter().for_each(|i| patches[patch(*i) as usize].1 += 1);
+    order.iter().for_each(|i| patches[patch(*i) as usize].2 += 1);
     Ok(Boundary {
         faces: order.iter().map(|i| outer[*i]).collect(),
         on: order.iter().map(|i| on[*i].map(|(_, surface, cell)| (surface, cell))).collect(),

@@ -2,7 +2,7 @@
 
 use super::cells::{LINE, POLYGON};
 use super::data::COUNT;
-use super::files::Found;
+use super::files::{Block, Found};
 use super::grid::Grid;
 use super::{Axis, Options, flat, of_found};
 use crate::points::renumber;
@@ -15,7 +15,7 @@ pub(crate) type Values = [Option<Vec<f64>>; COUNT];
 /// Cells that are polygons of a plane, with faces of the boundary that are lines.
 pub(crate) struct Flat {
     grid: Grid,
-    boundary: Vec<(String, PatchKind, Grid)>,
+    boundary: Vec<Block>,
 }
 
 impl Flat {
@@ -36,24 +36,13 @@ impl Flat {
         };
         let mut grid = Grid { points, kinds: vec![LINE; lines.len()], cells, ..Grid::default() };
         grid.data.cells = values;
-        self.boundary.push((name.to_owned(), kind, grid));
+        self.boundary.push(Block { name: name.to_owned(), kind, grid });
     }
 
     /// The result, round an axis or plane.
     pub fn snapshot(self, axis: Option<Axis>, path: &Path, mut notes: Vec<String>) -> Result<Snapshot, Error> {
-        let mut kinds = Vec::new();
-        let mut found = Found { solids: vec![self.grid], ..Found::default() };
-        for (name, kind, grid) in self.boundary {
-            kinds.push((name.clone(), kind));
-            found.surfaces.push((name, grid));
-        }
-        let beside = flat::solid(&mut found, axis, false, &mut notes).map_err(|what| Error::file(path, what))?;
-        let mut snapshot = of_found(found, &beside, path, &Options::default(), notes)?;
-        for patch in snapshot.mesh.patches.iter_mut().filter(|p| p.kind == PatchKind::Plain) {
-            if let Some((_, kind)) = kinds.iter().find(|(name, _)| *name == patch.name) {
-                patch.kind = kind.clone();
-            }
-        }
-        Ok(snapshot)
+        let mut found = Found { solids: vec![self.grid], surfaces: self.boundary, ..Found::default() };
+        flat::make_solid(&mut found, axis, false, &mut notes).map_err(|what| Error::file(path, what))?;
+        of_found(found, path, &Options::default(), notes)
     }
 }

@@ -68,6 +68,23 @@ def topology(group, rows, **more):
     return zone
 
 
+def put_zones(group, zones):
+    rows, first = [], 1
+    for i, (_, _, all) in enumerate(zones):
+        rows.append((20 + i, first, first + len(all) - 1))
+        first += len(all)
+    zone = topology(group, rows, zoneType=[k for _, k, _ in zones], childZoneId=[0] * len(zones))
+    text(zone, "name", ";".join(n for n, _, _ in zones))
+
+
+def put_unread(nodes, cells, faces, dimension):
+    """Lists that VTK's reader asks for."""
+    for group, names in ((nodes, ["dimension"]), (cells, ["dimension"]), (faces, ["dimension", "faceType", "shadowZoneId", "flags"])):
+        zone = group["zoneTopology"]
+        for key in names:
+            put(zone, key, [dimension if key == "dimension" else 0] * len(zone["id"]), "i4")
+
+
 def case(name, turned, libver, one_more=0, full=False):
     with h5py.File(name, "w", libver=libver) as f:
         mesh = f.create_group("meshes/1")
@@ -81,12 +98,7 @@ def case(name, turned, libver, one_more=0, full=False):
         zone = topology(cells, [(5, 1, 2), (6, 3, 3)], zoneType=[1, 17], cellType=[4, 4], childZoneId=[0, 0])
         text(zone, "name", "air;steel")
         group = mesh.create_group("faces")
-        rows, first = [], 1
-        for i, (_, _, all) in enumerate(zones):
-            rows.append((20 + i, first, first + len(all) - 1))
-            first += len(all)
-        zone = topology(group, rows, zoneType=[k for _, k, _ in zones], childZoneId=[0] * len(zones))
-        text(zone, "name", ";".join(n for n, _, _ in zones))
+        put_zones(group, zones)
         # in two sections
         section = group.create_group("nodes")
         numbers(section, nSections=2)
@@ -103,10 +115,7 @@ def case(name, turned, libver, one_more=0, full=False):
         put(c1, "1", [1 + 1], "u4", minId=1, maxId=1)
         f.create_group("settings")
         if full:
-            for group, names in ((nodes, ["dimension"]), (cells, ["dimension"]), (group, ["dimension", "faceType", "shadowZoneId", "flags"])):
-                zone = group["zoneTopology"]
-                for key in names:
-                    put(zone, key, [3 if key == "dimension" else 0] * len(zone["id"]), "i4")
+            put_unread(nodes, cells, group, 3)
 
 
 def data(name, kind, libver, broken=False):
@@ -150,12 +159,7 @@ def flat(folder, full=False):
         zone = topology(cells, [(5, 1, 3)], zoneType=[1], cellType=[0], childZoneId=[0])
         text(zone, "name", "air")
         group = mesh.create_group("faces")
-        rows, first = [], 1
-        for i, (_, _, all) in enumerate(lines):
-            rows.append((20 + i, first, first + len(all) - 1))
-            first += len(all)
-        zone = topology(group, rows, zoneType=[k for _, k, _ in lines], childZoneId=[0] * len(lines))
-        text(zone, "name", ";".join(n for n, _, _ in lines))
+        put_zones(group, lines)
         section = group.create_group("nodes")
         numbers(section, nSections=1)
         s = section.create_group("1")
@@ -170,10 +174,7 @@ def flat(folder, full=False):
             put(side, "1", some, "u4", minId=1, maxId=len(some))
         f.create_group("settings")
         if full:
-            for group, names in ((nodes, ["dimension"]), (cells, ["dimension"]), (group, ["dimension", "faceType", "shadowZoneId", "flags"])):
-                zone = group["zoneTopology"]
-                for key in names:
-                    put(zone, key, [2 if key == "dimension" else 0] * len(zone["id"]), "i4")
+            put_unread(nodes, cells, group, 2)
             kinds = cells.create_group("ctype")
             numbers(kinds, nSections=1)
             put(kinds.create_group("1"), "cell-types", [3, 3, 1], "i2")

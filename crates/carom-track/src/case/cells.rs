@@ -86,8 +86,9 @@ pub(super) fn read(
 /// The axis that an axisymmetric result goes round, if it is one.
 fn axis(text: &FlowText) -> Result<Option<vtk::Axis>, LawError> {
     let Some(at) = &text.axisymmetric else { return Ok(None) };
-    let named = vtk::Axis::ALL.into_iter().find(|axis| axis.name() == at.value);
-    named.map(Some).ok_or_else(|| unknown(at, "axis", vtk::Axis::ALL.into_iter().map(vtk::Axis::name)))
+    vtk::Axis::named(&at.value)
+        .map(Some)
+        .ok_or_else(|| unknown(at, "axis", vtk::Axis::ALL.into_iter().map(vtk::Axis::name)))
 }
 
 fn names(text: Option<&At<FieldsText>>) -> Names {

@@ -1,5 +1,7 @@
 use super::*;
 use crate::force::{NearWall, RandomWalk};
+use crate::record::{End, ImpactRecord, Sink};
+use crate::tracker::Particle;
 
 mod cells;
 mod curvature;
@@ -11,6 +13,22 @@ mod forces;
 mod gas;
 mod particles;
 mod stl;
+
+/// How particles end, in the order in which they do.
+#[derive(Default)]
+struct Ends(Vec<End>);
+
+impl Sink for Ends {
+    fn start(&mut self, _: &Particle) -> bool {
+        false
+    }
+    fn impact(&mut self, _: &ImpactRecord) {}
+    fn point(&mut self, _: u64, _: f64, _: [f64; 3], _: [f64; 3], _: [f64; 3]) {}
+    fn end(&mut self, end: &End) {
+        self.0.push(*end);
+    }
+    fn stalled(&mut self) {}
+}
 
 const GOOD: &str = r#"
 title = "Copper in a channel"

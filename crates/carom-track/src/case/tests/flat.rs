@@ -1,21 +1,9 @@
 //! Results of VTK whose cells are polygons of a plane, against what they are of.
 
 use super::*;
-use crate::record::{End, ImpactRecord, ParticleFate, Sink};
+use crate::record::{End, ParticleFate};
 use crate::vector::{norm, sub};
 use std::fmt::Write as _;
-
-#[derive(Default)]
-struct Ends(Vec<End>);
-
-impl Sink for Ends {
-    fn impact(&mut self, _: &ImpactRecord) {}
-    fn point(&mut self, _: u64, _: f64, _: [f64; 3], _: [f64; 3], _: [f64; 3]) {}
-    fn end(&mut self, end: &End) {
-        self.0.push(*end);
-    }
-    fn stalled(&mut self) {}
-}
 
 /// How the spheres of a case end, by their numbers.
 fn ends(text: &str, file: &std::path::Path) -> Vec<End> {

@@ -3,7 +3,7 @@
 use super::*;
 use crate::flow::Fluid;
 use crate::force::{Drag, Forces, Slip, Sphere, relaxation_time, thermophoresis};
-use crate::record::{End, ImpactRecord, Sink};
+use crate::record::End;
 
 const DENSITY: f64 = 1000.0;
 
@@ -21,21 +21,6 @@ fn case(
         "[fluid]\n{fluid}\n[flow]\nkind = \"table\"\nfile = \"gas.csv\"\n[forces]\n{forces}\n[[injection]]\ndensity = {DENSITY}\n{injection}\n[run]\nuntil = \"{until}\"\ntolerance = 1e-8\n"
     );
     Case::from_toml(&text, &folder.join("case.toml"), Library::builtin())
-}
-
-#[derive(Default)]
-struct Ends(Vec<End>);
-
-impl Sink for Ends {
-    fn start(&mut self, _: &Particle) -> bool {
-        false
-    }
-    fn impact(&mut self, _: &ImpactRecord) {}
-    fn point(&mut self, _: u64, _: f64, _: [f64; 3], _: [f64; 3], _: [f64; 3]) {}
-    fn end(&mut self, end: &End) {
-        self.0.push(*end);
-    }
-    fn stalled(&mut self) {}
 }
 
 fn end(case: &Case) -> End {
