@@ -17,7 +17,8 @@ unpacked=target/unpacked
 rm -rf target/package "$unpacked"
 mkdir -p "$unpacked"
 cargo package --workspace --locked --no-verify "${dirty[@]}"
-for crate in target/package/*.crate; do tar -xzf "$crate" -C "$unpacked"; done
+# with today's times (-m), not those in the package, by which cargo would take it for what it has checked before
+for crate in target/package/*.crate; do tar -xzmf "$crate" -C "$unpacked"; done
 cp Cargo.lock "$unpacked"
 {
     printf '[workspace]\nresolver = "3"\nmembers = ["*"]\n[patch.crates-io]\n'
